@@ -1,0 +1,1 @@
+# facet_add_shader() is defined here once the shader interface stands.

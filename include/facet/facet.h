@@ -1,0 +1,10 @@
+// Everything a user of the library includes.
+#pragma once
+
+#include "facet/error.h"
+#include "facet/film.h"
+#include "facet/image.h"
+#include "facet/load.h"
+#include "facet/render.h"
+#include "facet/scene.h"
+#include "facet/version.h"

@@ -1,0 +1,42 @@
+// The linear picture that rendering makes, and its way to the display.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <optional>
+#include <vector>
+
+#include "facet/image.h"
+
+namespace facet {
+
+// Linear light, Rec. 709, premultiplied by coverage alpha; height rows of width pixels, top row first.
+struct Film {
+  int width = 0;
+  int height = 0;
+  std::vector<glm::vec4> pixels;
+};
+
+enum class ToneMap : std::uint8_t { None, Reinhard, Aces, AgX, Neutral };
+
+struct DisplaySettings {
+  double exposure_ev = 0.0;  // light is multiplied by 2^exposure_ev
+  ToneMap tone_map = ToneMap::Neutral;
+  // Shown behind the picture, sRGB in [0, 1] as it shall stand in the file; none: stays transparent.
+  std::optional<glm::vec3> background_srgb;
+};
+
+// Exposure, tone curve, background and sRGB encoding. `type` U8 or U16 gives an sRGB picture, F32 a linear one that is
+// exposed but not tone-mapped (the display's background, when given, is put behind it in linear light).
+// 4 channels, straight alpha; 3 channels when a background makes every pixel opaque.
+Image Develop(const Film& film, const DisplaySettings& settings, ChannelType type = ChannelType::U8);
+
+// Writes by extension: .png (U8, U16), .exr and what else OpenImageIO writes. The file appears whole or not at all.
+// `text`: key/value pairs for PNG text chunks. Throws Error: InvalidUsage (unknown extension), OutputFailed,
+// MissingModule.
+void WriteImage(const std::filesystem::path& path, const Image& image,
+                const std::vector<std::array<std::string, 2>>& text = {});
+
+}  // namespace facet

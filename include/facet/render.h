@@ -1,0 +1,113 @@
+// A scene into a film.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <glm/glm.hpp>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "facet/film.h"
+#include "facet/image.h"
+#include "facet/scene.h"
+
+namespace facet {
+
+class FragmentShader;  // facet/shader.h
+
+// --- Camera ----------------------------------------------------------------------------------------------------------
+
+// Frames the scene's bounds from the front, a little above.
+struct AutoCamera {
+  std::optional<double> yfov;  // radians; 45 degrees if none
+};
+
+// eye = target + radius * (sin phi * sin theta, cos phi, sin phi * cos theta), +Y up.
+struct OrbitCamera {
+  double theta = 0.0, phi = 1.5707963267948966;  // radians
+  std::optional<double> radius;                  // none, or not positive: the distance that frames the bounds
+  std::optional<glm::dvec3> target;              // none: the centre of the bounds
+  std::optional<double> yfov;                    // radians; 45 degrees if none
+};
+
+// A camera of the scene, by index into Scene::cameras, placed by the first visible node that holds it.
+struct SceneCamera {
+  int camera = 0;
+};
+
+// Any other.
+struct FreeCamera {
+  glm::dmat4 world_from_camera{1.0};  // looks along -Z, +Y up; rigid
+  Camera lens;
+};
+
+using CameraChoice = std::variant<AutoCamera, OrbitCamera, SceneCamera, FreeCamera>;
+
+// --- Light -----------------------------------------------------------------------------------------------------------
+
+// Light from all around. The picture is equirectangular: its centre column lies towards +X... see docs/conventions.md.
+struct EnvironmentSettings {
+  enum class Kind : std::uint8_t { Studio, None, Image };
+  Kind kind = Kind::Studio;
+  std::shared_ptr<const Image> image;  // Kind::Image: 3 or 4 channels, any type
+  double rotation = 0.0;               // radians about +Y, counter-clockwise seen from above
+  double intensity = 1.0;
+};
+
+enum class Background : std::uint8_t { Transparent, Environment };
+
+// --- Settings ----------------------------------------------------------------------------------------------------------
+
+struct RenderSettings {
+  int width = 1024;   // 1 to 16384
+  int height = 1024;  // 1 to 16384
+  int samples = 4;    // coverage samples per pixel: 1, 2, 4 or 8
+  int threads = 0;    // 0: one per core
+  int max_anisotropy = 8;  // 1 to 16
+  int tile_size = 32;      // 8, 16, 32 or 64: never changes the picture
+  int scene = -1;          // -1: the default one
+  int animation = -1;      // -1: rest pose
+  double time = 0.0;       // seconds
+  int variant = -1;        // -1: none
+  CameraChoice camera = AutoCamera{};
+  EnvironmentSettings environment;
+  Background background = Background::Transparent;
+  // Replaces the material's shading for every fragment; null: the physically based model. Not owned.
+  const FragmentShader* shader = nullptr;
+  // Called now and then from one of the worker threads with the share that is done, in [0, 1]. May be empty.
+  std::function<void(double)> progress;
+};
+
+// --- What it took ------------------------------------------------------------------------------------------------------
+
+// Times are wall-clock seconds; counts are exact and independent of thread count.
+struct RenderStats {
+  double pose_seconds = 0, environment_seconds = 0, texture_seconds = 0, geometry_seconds = 0, raster_seconds = 0,
+         total_seconds = 0;  // raster: tiles, from coverage to resolve
+  std::uint64_t drawables = 0;
+  std::uint64_t vertices = 0;
+  std::uint64_t triangles_in = 0;        // as the scene states them, points and lines included
+  std::uint64_t triangles_culled = 0;    // back faces and degenerate ones
+  std::uint64_t triangles_clipped = 0;   // cut by a plane, or wholly outside
+  std::uint64_t triangles_binned = 0;    // reached at least one tile
+  std::uint64_t tiles = 0;
+  std::uint64_t fragments_shaded = 0;    // opaque and masked
+  std::uint64_t fragments_blended = 0;
+  std::uint64_t covered_pixels = 0;      // with alpha > 0
+  std::uint64_t images_decoded = 0;
+  std::uint64_t texture_bytes = 0;       // all mip levels kept
+  std::uint64_t non_finite_fragments = 0;  // replaced by black, see docs/conventions.md
+  std::string target;                    // instruction set: SCALAR, SSE4, AVX2 or AVX3
+  int threads = 0;
+  std::vector<std::string> warnings;     // images that could not be decoded, and the like
+};
+
+// Renders. Safe to call from several threads at once. Throws Error: InvalidUsage for settings out of range,
+// InvalidInput for scenes that break their rules, OutOfMemory.
+Film Render(const Scene& scene, const RenderSettings& settings, RenderStats* stats = nullptr);
+
+}  // namespace facet

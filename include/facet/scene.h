@@ -1,0 +1,205 @@
+// A scene as a file states it: plain values, glTF 2.0's terms and defaults. Lengths are metres, angles radians,
+// time seconds; right-handed, +Y up; colours linear Rec. 709. An index of -1 means "none".
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "facet/image.h"
+
+namespace facet {
+
+// --- Textures ------------------------------------------------------------------------------------------------------
+
+enum class Wrap : std::uint8_t { Repeat, MirroredRepeat, ClampToEdge };
+enum class Filter : std::uint8_t { Nearest, Linear };
+enum class MipFilter : std::uint8_t { None, Nearest, Linear };
+
+// How a texture is read between texels and between mip levels. The defaults are what glTF leaves to the renderer.
+struct Sampler {
+  Wrap wrap_u = Wrap::Repeat;
+  Wrap wrap_v = Wrap::Repeat;
+  Filter magnification = Filter::Linear;
+  Filter minification = Filter::Linear;
+  MipFilter mip = MipFilter::Linear;
+};
+
+struct SceneImage {
+  std::string name;
+  std::shared_ptr<const ImageSource> source;  // never null
+};
+
+struct Texture {
+  std::string name;
+  int image = -1;  // -1: no image that facet can read; sampled as opaque white
+  Sampler sampler;
+};
+
+// A use of a texture. uv' = offset + R(rotation) * (scale * uv), KHR_texture_transform.
+struct TextureRef {
+  int texture = -1;
+  int tex_coord = 0;  // which UV set
+  glm::vec2 offset{0.0f};
+  glm::vec2 scale{1.0f};
+  float rotation = 0.0f;  // radians, counter-clockwise in UV space with v down, as the extension defines it
+  explicit operator bool() const { return texture >= 0; }
+};
+
+// --- Materials -----------------------------------------------------------------------------------------------------
+
+enum class AlphaMode : std::uint8_t { Opaque, Mask, Blend };
+
+struct Material {
+  std::string name;
+  glm::vec4 base_color_factor{1.0f};  // linear, straight alpha
+  TextureRef base_color_texture;      // sRGB
+  float metallic_factor = 1.0f;
+  float roughness_factor = 1.0f;         // perceptual roughness
+  TextureRef metallic_roughness_texture;  // G roughness, B metalness
+  TextureRef normal_texture;              // tangent space, +Y up
+  float normal_scale = 1.0f;
+  TextureRef occlusion_texture;  // R
+  float occlusion_strength = 1.0f;
+  glm::vec3 emissive_factor{0.0f};  // linear
+  TextureRef emissive_texture;      // sRGB
+  float emissive_strength = 1.0f;   // KHR_materials_emissive_strength
+  AlphaMode alpha_mode = AlphaMode::Opaque;
+  float alpha_cutoff = 0.5f;
+  bool double_sided = false;
+  bool unlit = false;  // KHR_materials_unlit
+};
+
+// --- Geometry ------------------------------------------------------------------------------------------------------
+
+enum class Topology : std::uint8_t { Points, Lines, LineLoop, LineStrip, Triangles, TriangleStrip, TriangleFan };
+
+// Displacements of a morph target; an empty array means none. Sizes equal the primitive's.
+struct MorphTarget {
+  std::vector<glm::vec3> positions, normals, tangents;
+  std::vector<std::vector<glm::vec2>> tex_coords;
+  std::vector<glm::vec4> colors;
+};
+
+// Geometry with one material. Every non-empty attribute array has positions.size() entries.
+struct Primitive {
+  Topology topology = Topology::Triangles;
+  std::vector<glm::vec3> positions;  // mesh space
+  std::vector<glm::vec3> normals;    // unit; empty: flat shading
+  std::vector<glm::vec4> tangents;   // xyz unit, w = +-1 handedness; empty: made when a normal map needs them
+  std::vector<std::vector<glm::vec2>> tex_coords;
+  std::vector<glm::vec4> colors;                   // linear RGBA, straight alpha
+  std::vector<std::vector<glm::u16vec4>> joints;   // JOINTS_n: indices into Skin::joints
+  std::vector<std::vector<glm::vec4>> weights;     // WEIGHTS_n
+  std::vector<std::uint32_t> indices;              // empty: 0, 1, 2 ...; every value < positions.size()
+  std::vector<MorphTarget> targets;
+  int material = -1;                   // -1: glTF's default material
+  std::vector<int> variant_materials;  // by index of Scene::variants; empty, or -1 where the variant leaves it alone
+};
+
+struct Mesh {
+  std::string name;
+  std::vector<Primitive> primitives;
+  std::vector<float> weights;  // default morph weights
+};
+
+struct Skin {
+  std::string name;
+  std::vector<int> joints;                   // nodes
+  std::vector<glm::mat4> inverse_bind;       // empty: identities; otherwise joints.size()
+};
+
+// --- Nodes, cameras, lights -------------------------------------------------------------------------------------------
+
+struct Camera {
+  std::string name;
+  bool orthographic = false;
+  double yfov = 0.8;                       // perspective: vertical field of view, (0, pi)
+  std::optional<double> aspect;            // perspective: width / height; none: the picture's
+  double xmag = 1.0, ymag = 1.0;           // orthographic: half extents
+  double znear = 0.01;
+  double zfar = std::numeric_limits<double>::infinity();
+};
+
+enum class LightType : std::uint8_t { Directional, Point, Spot };
+
+// KHR_lights_punctual. Shines along the node's -Z.
+struct Light {
+  std::string name;
+  LightType type = LightType::Point;
+  glm::vec3 color{1.0f};   // linear
+  float intensity = 1.0f;  // lux for directional, candela for point and spot
+  float range = std::numeric_limits<float>::infinity();
+  float inner_cone_angle = 0.0f;
+  float outer_cone_angle = 0.7853981634f;
+};
+
+struct Transform {
+  glm::dvec3 translation{0.0};
+  glm::dquat rotation{1.0, 0.0, 0.0, 0.0};  // w, x, y, z
+  glm::dvec3 scale{1.0};
+};
+
+struct Node {
+  std::string name;
+  std::vector<int> children;
+  Transform transform;
+  std::optional<glm::dmat4> matrix;  // instead of `transform`, when the file gives one
+  int mesh = -1, skin = -1, camera = -1, light = -1;
+  std::vector<float> weights;        // morph weights; empty: the mesh's
+  bool visible = true;               // KHR_node_visibility; inherited
+  std::vector<Transform> instances;  // EXT_mesh_gpu_instancing; empty: the mesh once
+};
+
+// --- Animation -------------------------------------------------------------------------------------------------------
+
+enum class AnimationPath : std::uint8_t { Translation, Rotation, Scale, Weights };
+enum class Interpolation : std::uint8_t { Linear, Step, CubicSpline };
+
+struct AnimationChannel {
+  int node = -1;
+  AnimationPath path = AnimationPath::Translation;
+  Interpolation interpolation = Interpolation::Linear;
+  std::vector<float> times;   // seconds, strictly increasing
+  // times.size() * width numbers, or thrice that for CubicSpline (in-tangent, value, out-tangent per key);
+  // width is 3, 4 (x, y, z, w) or the number of morph targets.
+  std::vector<float> values;
+};
+
+struct Animation {
+  std::string name;
+  std::vector<AnimationChannel> channels;
+};
+
+// --- The whole ---------------------------------------------------------------------------------------------------------
+
+struct SceneRoots {
+  std::string name;
+  std::vector<int> nodes;
+};
+
+// Every index in it is valid or -1, and the node hierarchy is a forest: loaders guarantee it, ValidateScene checks it.
+struct Scene {
+  std::vector<SceneImage> images;
+  std::vector<Texture> textures;
+  std::vector<Material> materials;
+  std::vector<Mesh> meshes;
+  std::vector<Skin> skins;
+  std::vector<Camera> cameras;
+  std::vector<Light> lights;
+  std::vector<Node> nodes;
+  std::vector<Animation> animations;
+  std::vector<SceneRoots> scenes;
+  int default_scene = -1;  // -1: scene 0 if there is one, else every node without a parent
+  std::vector<std::string> variants;  // KHR_materials_variants
+};
+
+// Throws Error(InvalidInput) naming the first index, size or cycle that breaks the rules above.
+void ValidateScene(const Scene& scene);
+
+}  // namespace facet

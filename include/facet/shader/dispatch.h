@@ -1,0 +1,65 @@
+// Which instruction set runs, and the table of a kernel's versions. A kernel's source file looks so:
+//
+//   #undef HWY_TARGET_INCLUDE
+//   #define HWY_TARGET_INCLUDE "raster/raster_tile.cc"   // itself, as the include path finds it
+//   #include "hwy/foreach_target.h"
+//   #include "facet/shader/lane-inl.h"
+//   HWY_BEFORE_NAMESPACE();
+//   namespace facet { namespace HWY_NAMESPACE {
+//   void RasterTile(const TileTask& task) { ... }        // once per instruction set
+//   } }
+//   HWY_AFTER_NAMESPACE();
+//   #if HWY_ONCE
+//   namespace facet {
+//   FACET_EXPORT(RasterTile);
+//   void RasterTile(const TileTask& task) { FACET_DISPATCH(RasterTile)(task); }
+//   }
+//   #endif
+//
+// Only pointers, references and scalars cross the dispatch. Lambdas in a kernel need HWY_ATTR.
+#pragma once
+
+namespace facet {
+
+// Highway's names. Neon stands for the best target of 64-bit Arm.
+enum class Target { Scalar, Sse4, Avx2, Avx3, Neon };
+
+// The target in use: the one that FACET_TARGET names (SCALAR, SSE4, AVX2, AVX3, NEON), else the best that the processor
+// has. Throws Error(InvalidUsage) when the variable names an unknown one or one that the processor lacks.
+Target ActiveTarget();
+const char* TargetName(Target target);
+bool TargetIsAvailable(Target target);
+
+// For tests: overrides FACET_TARGET for the lifetime of the object. Not for use while something renders.
+class ScopedTarget {
+ public:
+  explicit ScopedTarget(Target target);
+  ~ScopedTarget();
+  ScopedTarget(const ScopedTarget&) = delete;
+  ScopedTarget& operator=(const ScopedTarget&) = delete;
+
+ private:
+  int previous_;
+};
+
+// The version for `target`, or the scalar one where the build lacks it.
+template <class Function>
+Function ChooseKernel(Target target, Function scalar, Function sse4, Function avx2, Function avx3, Function neon) {
+  const Function best = target == Target::Sse4   ? sse4
+                        : target == Target::Avx2 ? avx2
+                        : target == Target::Avx3 ? avx3
+                        : target == Target::Neon ? neon
+                                                 : scalar;
+  return best != nullptr ? best : scalar;
+}
+
+}  // namespace facet
+
+#define FACET_EXPORT(F)                                                                     \
+  static decltype(&HWY_STATIC_DISPATCH(F)) F##ForTarget(::facet::Target target) {           \
+    return ::facet::ChooseKernel<decltype(&HWY_STATIC_DISPATCH(F))>(                        \
+        target, HWY_CHOOSE_FALLBACK(F), HWY_CHOOSE_SSE4(F), HWY_CHOOSE_AVX2(F),             \
+        HWY_CHOOSE_AVX3(F), HWY_CHOOSE_NEON(F));                                            \
+  }                                                                                         \
+  static_assert(true, "")
+#define FACET_DISPATCH(F) (F##ForTarget(::facet::ActiveTarget()))

@@ -1,0 +1,34 @@
+#include "base/parallel.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+
+#include "base/float_environment.h"
+
+namespace facet {
+
+void RunWithThreads(int threads, const std::function<void()>& body) {
+  const FloatEnvironment pinned;
+  tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
+  arena.execute([&] { body(); });
+}
+
+int CurrentThreadCount() { return tbb::this_task_arena::max_concurrency(); }
+
+void ParallelFor(std::size_t count, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& body) {
+  const std::size_t pieces = (count + grain - 1) / grain;
+  if (pieces == 0) return;
+  const auto run = [&](std::size_t piece) {
+    const FloatEnvironment pinned;
+    body(piece * grain, std::min(count, (piece + 1) * grain));
+  };
+  if (pieces == 1) return run(0);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, pieces, 1), [&](const tbb::blocked_range<std::size_t>& range) {
+    for (std::size_t piece = range.begin(); piece != range.end(); ++piece) run(piece);
+  }, tbb::simple_partitioner());
+}
+
+}  // namespace facet

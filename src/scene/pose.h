@@ -1,0 +1,64 @@
+// A scene at one moment: every mesh placed, deformed and ready to be drawn.
+#pragma once
+
+#include <deque>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "facet/scene.h"
+
+namespace facet {
+
+struct PoseSettings {
+  int scene = -1;      // -1: the default one
+  int animation = -1;  // -1: rest pose
+  double time = 0.0;   // seconds, clamped to the keys of each channel
+  int variant = -1;    // -1: none
+};
+
+// One primitive of one mesh, placed by one node (or one of its instances).
+struct Drawable {
+  const Primitive* geometry = nullptr;  // in the Scene or in PosedScene::owned
+  glm::dmat4 world_from_mesh{1.0};
+  int material = -1;                    // after the variant's choice; -1: glTF's default material
+  int node = -1, mesh = -1, primitive = -1;
+};
+
+struct PosedLight {
+  const Light* light = nullptr;
+  glm::dvec3 position_world{0.0};
+  glm::dvec3 direction_world{0.0, 0.0, -1.0};  // unit: where it shines
+};
+
+struct PosedCamera {
+  int camera = -1;  // index into Scene::cameras
+  glm::dmat4 world_from_camera{1.0};
+};
+
+// Of all vertices of all drawables. `empty` when there is none.
+struct Bounds {
+  glm::dvec3 low{0.0}, high{0.0};
+  bool empty = true;
+};
+
+// Refers to the Scene it was made from, which must outlive it. Guaranteed of each drawable's geometry: attribute arrays
+// as long as positions or empty; indices in range; where its material has a normal texture and its topology is one of
+// triangles: normals and tangents present (made by MikkTSpace where the file has none; a primitive without normals
+// gets flat ones first). Triangles without normals and without normal texture keep `normals` empty: flat shading.
+struct PosedScene {
+  std::vector<Drawable> drawables;  // in the order of a depth-first walk of the scene's roots
+  std::vector<PosedLight> lights;
+  std::vector<PosedCamera> cameras;
+  Bounds bounds;
+  std::deque<Primitive> owned;  // deformed or completed copies
+};
+
+// Animation, hierarchy, visibility, instances, morph targets, skins, variants, missing tangents. Runs in parallel
+// where it pays. Throws Error(InvalidUsage) for an index out of range, Error(InvalidInput) for scenes that break
+// their rules.
+PosedScene Pose(const Scene& scene, const PoseSettings& settings);
+
+// The bounds only, without keeping deformed geometry (for `facet info`).
+Bounds PosedBounds(const Scene& scene, const PoseSettings& settings);
+
+}  // namespace facet
