@@ -34,12 +34,15 @@ HWY_INLINE HWY_MAYBE_UNUSED std::size_t LaneCount() { return hn::Lanes(FloatTag(
 // An upper bound of it that is a constant.
 inline constexpr std::size_t kMaxLanes = HWY_MAX_BYTES / sizeof(float) < 1 ? 1 : HWY_MAX_BYTES / sizeof(float);
 
+// Default construction leaves lanes unset, as for float; Float{} is zero. (A constructor of our own would be called from
+// those that the compiler makes for structs of lanes, which GCC compiles for no instruction set in particular.)
+
 // --- Types -------------------------------------------------------------------------------------------------------------
 
 struct Mask {
   using Raw = hn::Mask<FloatTag>;
   Raw raw;
-  HWY_INLINE Mask() : raw(hn::MaskFromVec(hn::Zero(FloatTag()))) {}
+  Mask() = default;
   HWY_INLINE Mask(Raw r) : raw(r) {}  // NOLINT: implicit on purpose
   HWY_INLINE explicit Mask(bool b)
       : raw(hn::RebindMask(FloatTag(), hn::Eq(hn::Set(IntTag(), b ? 1 : 0), hn::Set(IntTag(), 1)))) {}
@@ -48,7 +51,7 @@ struct Mask {
 struct Float {
   using Raw = hn::Vec<FloatTag>;
   Raw raw;
-  HWY_INLINE Float() : raw(hn::Zero(FloatTag())) {}
+  Float() = default;
   HWY_INLINE Float(Raw r) : raw(r) {}                               // NOLINT
   HWY_INLINE Float(float f) : raw(hn::Set(FloatTag(), f)) {}        // NOLINT: constants read as in scalar code
 };
@@ -56,7 +59,7 @@ struct Float {
 struct Int {
   using Raw = hn::Vec<IntTag>;
   Raw raw;
-  HWY_INLINE Int() : raw(hn::Zero(IntTag())) {}
+  Int() = default;
   HWY_INLINE Int(Raw r) : raw(r) {}                                 // NOLINT
   HWY_INLINE Int(std::int32_t i) : raw(hn::Set(IntTag(), i)) {}     // NOLINT
 };

@@ -1,0 +1,40 @@
+// What a fragment shader receives and returns. T is Float (lanes), float or double.
+
+#if defined(FACET_SHADER_SURFACE_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef FACET_SHADER_SURFACE_INL_H_
+#undef FACET_SHADER_SURFACE_INL_H_
+#else
+#define FACET_SHADER_SURFACE_INL_H_
+#endif
+
+#include "facet/shader/vec-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace facet {
+namespace HWY_NAMESPACE {
+
+inline constexpr int kSurfaceUvSlots = 5;
+
+// A point of a surface under one fragment. World axes; unit vectors are unit.
+template <class T>
+struct Surface {
+  Vec3<T> position;  // metres, relative to the eye
+  Vec3<T> view;      // unit, towards the eye
+  Vec3<T> normal;    // unit, interpolated, on the viewer's side
+  Vec4<T> tangent;   // unit, w = handedness; only where the material has a normal texture
+  Vec4<T> color;     // vertex colour, linear; 1 where there is none
+  // Texture coordinates of each UV set that the material reads, and how they change over one pixel to the right and down.
+  Vec2<T> uv[kSurfaceUvSlots], duv_dx[kSurfaceUvSlots], duv_dy[kSurfaceUvSlots];
+};
+
+template <class T>
+struct Shaded {
+  Vec3<T> color;  // linear radiance towards the eye, not multiplied by alpha
+  T alpha;        // coverage
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace facet
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,26 @@
+// Transparency, exact: per sample, every blended fragment in front of the opaque surface, from back to front.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "frame/tile.h"
+
+namespace facet {
+
+// Looks up the record behind a frame-wide number.
+class RecordTable {
+ public:
+  virtual ~RecordTable() = default;
+  virtual const TriangleRecord& Record(std::int32_t number) const = 0;
+};
+
+// Replaces, in `pixels` (tile_size a row), those that blended fragments touch. Each sample starts from the opaque
+// fragment that covers it, or from `background` (may be null: nothing), and the fragments that cover it are laid over it
+// in the order of their depth at that very sample, so that surfaces that cut through each other come out right. At equal
+// depth the later triangle lies over the earlier. `opaque`: in the order of VisibleFragments.
+void CompositeBlended(const TileBuffers& tile, const ShadedFragments& opaque, const ShadedFragments& blended,
+                      const RecordTable& records, const std::vector<glm::vec4>* background,
+                      std::vector<glm::vec4>& pixels);
+
+}  // namespace facet

@@ -1,0 +1,156 @@
+// `facet info --json`.
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "cli/info_summary.h"
+
+namespace facet::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// A number that may be infinite, which JSON has no word for: null.
+Json Finite(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+template <class Vector>
+Json Array(const Vector& vector) {
+  Json array = Json::array();
+  for (int i = 0; i < Vector::length(); ++i) array.push_back(Finite(static_cast<double>(vector[i])));
+  return array;
+}
+
+Json ToJson(const Geometry& geometry) {
+  return {{"primitives", geometry.primitives},
+          {"vertices", geometry.vertices},
+          {"triangles", geometry.triangles},
+          {"lines", geometry.lines},
+          {"points", geometry.points}};
+}
+
+Json ToJson(const SceneSummary& scene) {
+  Json json = {{"name", scene.name}, {"nodes", scene.nodes}, {"drawn", ToJson(scene.drawn)}};
+  json["bounds"] = nullptr;
+  if (!scene.empty) json["bounds"] = {{"low", Array(scene.low)}, {"high", Array(scene.high)}};
+  return json;
+}
+
+Json ToJson(const MeshSummary& mesh) {
+  Json json = {{"name", mesh.name}};
+  json.update(ToJson(mesh.geometry));
+  json["normals"] = mesh.normals;
+  json["tangents"] = mesh.tangents;
+  json["tex_coord_sets"] = mesh.tex_coord_sets;
+  json["colors"] = mesh.colors;
+  json["morph_targets"] = mesh.morph_targets;
+  json["influences"] = mesh.influences;
+  return json;
+}
+
+Json ToJson(const MaterialSummary& summary) {
+  const Material& material = *summary.material;
+  Json textures = Json::object();
+  for (const TextureUse& use : summary.textures) {
+    textures[use.slot] = {
+        {"texture", use.ref.texture}, {"tex_coord", use.ref.tex_coord}, {"transformed", use.transformed}};
+  }
+  return {{"name", material.name},
+          {"alpha_mode", NameOf(material.alpha_mode)},
+          {"alpha_cutoff", material.alpha_cutoff},
+          {"double_sided", material.double_sided},
+          {"unlit", material.unlit},
+          {"base_color_factor", Array(material.base_color_factor)},
+          {"metallic_factor", material.metallic_factor},
+          {"roughness_factor", material.roughness_factor},
+          {"emissive_factor", Array(material.emissive_factor)},
+          {"emissive_strength", material.emissive_strength},
+          {"textures", textures},
+          {"primitives", summary.primitives}};
+}
+
+Json ToJson(const ImageSummary& image) {
+  return {{"name", image.name}, {"source", image.source}, {"textures", image.textures}};
+}
+
+Json ToJson(const Texture& texture) {
+  Json json = {{"name", texture.name}};
+  json["image"] = texture.image < 0 ? Json(nullptr) : Json(texture.image);
+  return json;
+}
+
+Json ToJson(const Camera& camera) {
+  Json json = {{"name", camera.name}, {"type", camera.orthographic ? "orthographic" : "perspective"}};
+  if (camera.orthographic) {
+    json["xmag"] = camera.xmag;
+    json["ymag"] = camera.ymag;
+  } else {
+    json["yfov"] = camera.yfov;
+    json["aspect"] = camera.aspect ? Json(*camera.aspect) : Json(nullptr);
+  }
+  json["znear"] = camera.znear;
+  json["zfar"] = Finite(camera.zfar);
+  return json;
+}
+
+Json ToJson(const Light& light) {
+  Json json = {{"name", light.name},
+               {"type", NameOf(light.type)},
+               {"color", Array(light.color)},
+               {"intensity", light.intensity}};
+  json["range"] = Finite(static_cast<double>(light.range));
+  if (light.type == LightType::Spot) {
+    json["inner_cone_angle"] = light.inner_cone_angle;
+    json["outer_cone_angle"] = light.outer_cone_angle;
+  }
+  return json;
+}
+
+Json ToJson(const AnimationSummary& animation) {
+  return {{"name", animation.name},           {"duration", animation.duration_seconds},
+          {"channels", animation.channels},   {"translations", animation.translations},
+          {"rotations", animation.rotations}, {"scales", animation.scales},
+          {"weights", animation.weights}};
+}
+
+Json ToJson(const Skin& skin) { return {{"name", skin.name}, {"joints", skin.joints.size()}}; }
+
+Json ToJson(const ExtensionUse& extension) {
+  return {{"name", extension.name}, {"required", extension.required}, {"supported", extension.supported}};
+}
+
+template <class Things>
+Json List(const Things& things) {
+  Json array = Json::array();
+  for (const auto& thing : things) array.push_back(ToJson(thing));
+  return array;
+}
+
+}  // namespace
+
+std::string InfoJson(const FileSummary& summary) {
+  const Scene& scene = summary.file->scene;
+  const LoadReport& report = summary.file->report;
+  Json json;
+  json["input"] = summary.input;
+  json["asset"] = {{"version", report.version}, {"generator", report.generator}, {"copyright", report.copyright}};
+  json["file_bytes"] = report.file_bytes;
+  json["nodes"] = scene.nodes.size();
+  json["geometry"] = ToJson(summary.geometry);
+  json["default_scene"] = scene.scenes.empty() ? Json(nullptr) : Json(std::max(scene.default_scene, 0));
+  json["scenes"] = List(summary.scenes);
+  json["meshes"] = List(summary.meshes);
+  json["materials"] = List(summary.materials);
+  json["textures"] = List(scene.textures);
+  json["images"] = List(summary.images);
+  json["cameras"] = List(scene.cameras);
+  json["lights"] = List(scene.lights);
+  json["animations"] = List(summary.animations);
+  json["skins"] = List(scene.skins);
+  json["variants"] = scene.variants;
+  json["extensions"] = List(report.extensions);
+  json["warnings"] = report.warnings;
+  // Names need not be UTF-8; JSON must be.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace facet::cli

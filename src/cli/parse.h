@@ -1,0 +1,60 @@
+// Text of the command line into values. Nothing here depends on the locale, and nothing is half accepted: trailing
+// characters, NaN and infinities are refused. Every function throws Error(InvalidUsage) naming `option`, the text and
+// what would have been accepted.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace facet::cli {
+
+// An inclusive range.
+struct Range {
+  double low;
+  double high;
+};
+
+// A finite decimal number in `range`; a leading '+' is allowed.
+double ParseNumber(std::string_view option, std::string_view text, Range range);
+
+// A decimal integer in [low, high].
+int ParseInteger(std::string_view option, std::string_view text, int low, int high);
+
+struct Size {
+  int width;
+  int height;
+};
+
+// WIDTHxHEIGHT in pixels, each 1 to 16384.
+Size ParseSize(std::string_view option, std::string_view text);
+
+// X,Y,Z: three finite numbers.
+glm::dvec3 ParseVec3(std::string_view option, std::string_view text);
+
+// THETA,PHI[,RADIUS]: degrees, and metres; a radius of 0 (or none) frames the scene.
+struct Orbit {
+  double theta_degrees;
+  double phi_degrees;
+  std::optional<double> radius;
+};
+Orbit ParseOrbit(std::string_view option, std::string_view text);
+
+// #rgb, #rrggbb or one of ColorNames(); sRGB in [0, 1].
+glm::vec3 ParseColor(std::string_view option, std::string_view text);
+
+// The colours that have names (CSS's), in alphabetical order.
+std::vector<std::string_view> ColorNames();
+
+// One of `choices`, by index; letter case counts.
+int ParseChoice(std::string_view option, std::string_view text, const std::vector<std::string_view>& choices);
+
+// The index of what `text` picks out of `names`: a number of digits only is always an index, anything else a name.
+// `kind` is the singular word for messages, such as "camera"; the message lists what there is.
+int Choose(std::string_view option, std::string_view kind, const std::string& text,
+           const std::vector<std::string>& names);
+
+}  // namespace facet::cli

@@ -1,0 +1,195 @@
+#include "clip/assemble.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "clip/clip_polygon.h"
+#include "frame/constants.h"
+#include "scene/topology.h"
+
+namespace facet {
+namespace {
+
+struct ScreenVertex {
+  std::int32_t x_fx8, y_fx8;
+  double depth;
+};
+
+std::int32_t Snap(double pixels) { return static_cast<std::int32_t>(std::nearbyint(pixels * kSubpixelScale)); }
+
+class Assembler {
+ public:
+  Assembler(const FrameView& view, const FrameDrawable& drawable, const VertexBuffer& vertices, int samples,
+            TriangleChunk& chunk)
+      : view_(view), drawable_(drawable), vertices_(vertices), chunk_(chunk) {
+    // The outermost samples of a pixel bound which triangles can cover one at all.
+    const SamplePosition* pattern = SamplePattern(samples);
+    int low_x = 16, low_y = 16, high_x = 0, high_y = 0;
+    for (int s = 0; s < samples; ++s) {
+      low_x = std::min<int>(low_x, pattern[s].x), high_x = std::max<int>(high_x, pattern[s].x);
+      low_y = std::min<int>(low_y, pattern[s].y), high_y = std::max<int>(high_y, pattern[s].y);
+    }
+    constexpr int kUnit = kSubpixelScale / kSampleGrid;
+    low_x_ = low_x * kUnit, high_x_ = high_x * kUnit, low_y_ = low_y * kUnit, high_y_ = high_y * kUnit;
+  }
+
+  void Triangle(std::uint32_t primitive) {
+    const auto v = PrimitiveVertices(*drawable_.geometry, primitive);
+    const std::int32_t c0 = Code(v[0]), c1 = Code(v[1]), c2 = Code(v[2]);
+    if (Rejected(c0, c1, c2)) return;
+    if (((c0 | c1 | c2) & kOutClip) == 0) {
+      Emit(Vertex(v[0]), Vertex(v[1]), Vertex(v[2]), primitive, RecordKind::Triangle);
+      return;
+    }
+    ++chunk_.clipped;
+    ClipVertex polygon[kMaxClipVertices + 1];
+    for (int i = 0; i < 3; ++i) polygon[i] = {Homogeneous(v[std::size_t(i)]), i};
+    const int count = ClipPolygon(view_, c0 | c1 | c2, polygon, 3);
+    ScreenVertex screen[kMaxClipVertices + 1];
+    for (int i = 0; i < count; ++i) screen[i] = Project(polygon[i], v);
+    for (int i = 2; i < count; ++i) Emit(screen[0], screen[i - 1], screen[i], primitive, RecordKind::Triangle);
+  }
+
+  // A line is the rectangle one pixel wide around it (Vulkan 1.3 specification, "Rectangular Line Segments").
+  void Line(std::uint32_t primitive) {
+    const auto v = PrimitiveVertices(*drawable_.geometry, primitive);
+    const std::int32_t c0 = Code(v[0]), c1 = Code(v[1]);
+    if (Rejected(c0, c1, c1)) return;
+    ClipVertex ends[2] = {{Homogeneous(v[0]), 0}, {Homogeneous(v[1]), 1}};
+    if (((c0 | c1) & kOutClip) != 0) {
+      ++chunk_.clipped;
+      if (ClipLine(view_, c0 | c1, ends) == 0) return;
+    }
+    const glm::dvec2 a = Pixel(ends[0].position), b = Pixel(ends[1].position);
+    const glm::dvec2 along = b - a;
+    const double length = glm::length(along);
+    if (!(length > 0.0)) return void(++chunk_.culled);
+    const glm::dvec2 across = glm::dvec2(-along.y, along.x) * (0.5 / length);
+    const double depth_a = Depth(ends[0].position), depth_b = Depth(ends[1].position);
+    Quad({At(a - across, depth_a), At(b - across, depth_b), At(b + across, depth_b), At(a + across, depth_a)},
+         primitive, RecordKind::Line);
+  }
+
+  // A point is the square of one pixel around it.
+  void Point(std::uint32_t primitive) {
+    const auto v = PrimitiveVertices(*drawable_.geometry, primitive);
+    const std::int32_t c = Code(v[0]);
+    // Half a pixel of a point outside the picture may reach into it, but its centre decides, as in OpenGL ES.
+    if (Rejected(c, c, c)) return;
+    if ((c & kOutClip) != 0) return void(++chunk_.clipped);
+    const glm::dvec3 h = Homogeneous(v[0]);
+    const glm::dvec2 p = Pixel(h);
+    const double depth = Depth(h);
+    Quad({At(p + glm::dvec2(-0.5, -0.5), depth), At(p + glm::dvec2(0.5, -0.5), depth),
+          At(p + glm::dvec2(0.5, 0.5), depth), At(p + glm::dvec2(-0.5, 0.5), depth)},
+         primitive, RecordKind::Point);
+  }
+
+ private:
+  std::int32_t Code(std::uint32_t vertex) const { return vertices_.outcode[drawable_.vertex_base + vertex]; }
+
+  ScreenVertex Vertex(std::uint32_t vertex) const {
+    const std::size_t i = drawable_.vertex_base + vertex;
+    return {vertices_.x_fx8[i], vertices_.y_fx8[i], vertices_.depth[i]};
+  }
+
+  bool Rejected(std::int32_t c0, std::int32_t c1, std::int32_t c2) {
+    if ((c0 & c1 & c2 & kOutReject) == 0 && ((c0 | c1 | c2) & kOutNotFinite) == 0) return false;
+    ++chunk_.clipped;
+    return true;
+  }
+
+  glm::dvec3 Homogeneous(std::uint32_t vertex) const {
+    const glm::dvec4 p(glm::dvec3(drawable_.geometry->positions[vertex]), 1.0);
+    return {glm::dot(drawable_.screen_from_mesh[0], p), glm::dot(drawable_.screen_from_mesh[1], p),
+            glm::dot(drawable_.screen_from_mesh[2], p)};
+  }
+
+  glm::dvec2 Pixel(const glm::dvec3& h) const {
+    return view_.perspective ? glm::dvec2(h.x / h.z, h.y / h.z) : glm::dvec2(h.x, h.y);
+  }
+  double Depth(const glm::dvec3& h) const { return view_.perspective ? 1.0 / h.z : -h.z; }
+
+  ScreenVertex At(const glm::dvec2& pixel, double depth) const { return {Snap(pixel.x), Snap(pixel.y), depth}; }
+
+  // A vertex that the clipper did not touch keeps the place that the vertex stage gave it: the neighbours that were not
+  // clipped have it there.
+  ScreenVertex Project(const ClipVertex& v, const std::array<std::uint32_t, 3>& source) const {
+    if (v.source >= 0) return Vertex(source[std::size_t(v.source)]);
+    return At(Pixel(v.position), Depth(v.position));
+  }
+
+  // Half a pixel wide on each side: whether it is seen from the front does not matter.
+  void Quad(const std::array<ScreenVertex, 4>& q, std::uint32_t primitive, RecordKind kind) {
+    Emit(q[0], q[1], q[2], primitive, kind);
+    Emit(q[0], q[2], q[3], primitive, kind);
+  }
+
+  void Emit(ScreenVertex a, ScreenVertex b, ScreenVertex c, std::uint32_t primitive, RecordKind kind) {
+    const auto double_area = [&] {
+      return std::int64_t{b.x_fx8 - a.x_fx8} * (c.y_fx8 - a.y_fx8) - std::int64_t{c.x_fx8 - a.x_fx8} * (b.y_fx8 - a.y_fx8);
+    };
+    std::int64_t area = double_area();
+    // glTF's front faces run counter-clockwise; with y down that is a negative area.
+    const bool back = kind == RecordKind::Triangle && (area > 0) != drawable_.mirrored;
+    if (area == 0 || (back && !drawable_.double_sided)) return void(++chunk_.culled);
+    if (area < 0) std::swap(b, c), area = -area;
+
+    const auto [min_x, max_x] = std::minmax({a.x_fx8, b.x_fx8, c.x_fx8});
+    const auto [min_y, max_y] = std::minmax({a.y_fx8, b.y_fx8, c.y_fx8});
+    if (!SpansSample(min_x, max_x, low_x_, high_x_) || !SpansSample(min_y, max_y, low_y_, high_y_)) {
+      return void(++chunk_.culled);
+    }
+
+    TriangleRecord& r = chunk_.records.emplace_back();
+    r.x_fx8[0] = a.x_fx8, r.x_fx8[1] = b.x_fx8, r.x_fx8[2] = c.x_fx8;
+    r.y_fx8[0] = a.y_fx8, r.y_fx8[1] = b.y_fx8, r.y_fx8[2] = c.y_fx8;
+    const double scale = static_cast<double>(kSubpixelScale) / static_cast<double>(area);
+    const double x1 = b.x_fx8 - a.x_fx8, y1 = b.y_fx8 - a.y_fx8, x2 = c.x_fx8 - a.x_fx8, y2 = c.y_fx8 - a.y_fx8;
+    const double z1 = b.depth - a.depth, z2 = c.depth - a.depth;
+    r.depth_0 = static_cast<float>(a.depth);
+    r.depth_dx = static_cast<float>((z1 * y2 - z2 * y1) * scale);
+    r.depth_dy = static_cast<float>((z2 * x1 - z1 * x2) * scale);
+    r.depth_min = static_cast<float>(std::min({a.depth, b.depth, c.depth}));
+    r.depth_max = static_cast<float>(std::max({a.depth, b.depth, c.depth}));
+    r.drawable = chunk_.drawable;
+    r.primitive = primitive;
+    r.kind = kind;
+    r.back_facing = back;
+  }
+
+  // Whether [low, high] holds at least one position of the grid pixel * 256 + [first, last].
+  static bool SpansSample(std::int32_t low, std::int32_t high, int first, int last) {
+    const std::int32_t first_pixel = (low - last + kSubpixelScale - 1) >> kSubpixelBits;
+    const std::int32_t last_pixel = (high - first) >> kSubpixelBits;
+    return first_pixel <= last_pixel;
+  }
+
+  const FrameView& view_;
+  const FrameDrawable& drawable_;
+  const VertexBuffer& vertices_;
+  TriangleChunk& chunk_;
+  int low_x_, high_x_, low_y_, high_y_;
+};
+
+}  // namespace
+
+void AssembleChunk(const FrameView& view, const FrameDrawable& drawable, const VertexBuffer& vertices, int samples,
+                   TriangleChunk& chunk) {
+  Assembler assembler(view, drawable, vertices, samples, chunk);
+  const std::uint32_t end = chunk.first_primitive + chunk.primitive_count;
+  chunk.records.reserve(chunk.primitive_count / 2 + 8);
+  switch (ClassOf(drawable.geometry->topology)) {
+    case PrimitiveClass::Points:
+      for (std::uint32_t i = chunk.first_primitive; i < end; ++i) assembler.Point(i);
+      break;
+    case PrimitiveClass::Lines:
+      for (std::uint32_t i = chunk.first_primitive; i < end; ++i) assembler.Line(i);
+      break;
+    case PrimitiveClass::Triangles:
+      for (std::uint32_t i = chunk.first_primitive; i < end; ++i) assembler.Triangle(i);
+      break;
+  }
+}
+
+}  // namespace facet

@@ -1,0 +1,163 @@
+#include "film/develop_pixels.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "film/develop_pixels.cc"
+#include "hwy/foreach_target.h"
+
+#include "color/tone_curve-inl.h"
+#include "color/transfer-inl.h"
+#include "facet/shader/dispatch.h"
+#include "facet/shader/lane-inl.h"
+#include "facet/shader/vec-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace facet {
+namespace HWY_NAMESPACE {
+
+HWY_INLINE Vec3<Float> ApplyToneMap(ToneMap tone_map, Vec3<Float> light) {
+  switch (tone_map) {
+    case ToneMap::Reinhard: return ReinhardCurve(light);
+    case ToneMap::Aces: return AcesCurve(light);
+    case ToneMap::AgX: return AgXCurve(light);
+    case ToneMap::Neutral: return NeutralCurve(light);
+    case ToneMap::None: break;
+  }
+  return ClampCurve(light);
+}
+
+// Straight (not premultiplied), exposed light; alpha in [0, 1]. Pixels that are not finite are empty.
+HWY_INLINE Vec4<Float> ExposedLight(const DevelopTask& task, const float* pixels) {
+  Float r, g, b, a;
+  hn::LoadInterleaved4(FloatTag(), pixels, r.raw, g.raw, b.raw, a.raw);
+  const Vec4<Float> p{r, g, b, a};
+  const Float zero(0.0f);
+  const Mask seen = IsFinite(p.x) & IsFinite(p.y) & IsFinite(p.z) & IsFinite(p.w) & (p.w > zero);
+  const Float alpha = Select(seen, Min(p.w, Float(1.0f)), zero);
+  const Float divisor = Select(seen, p.w, Float(1.0f));
+  const Float exposure(task.exposure);
+  const auto expose = [&](Float c) HWY_ATTR { return Select(seen, c / divisor * exposure, zero); };
+  return {expose(p.x), expose(p.y), expose(p.z), alpha};
+}
+
+// Light that is seen in front of the background: an exact 1 behind an empty pixel stays an exact 1.
+HWY_INLINE Vec3<Float> InFront(const DevelopTask& task, Vec3<Float> light, Float alpha) {
+  const Float through = Float(1.0f) - alpha;
+  const auto& back = task.background_linear;
+  return {light.x * alpha + Float(back[0]) * through, light.y * alpha + Float(back[1]) * through,
+          light.z * alpha + Float(back[2]) * through};
+}
+
+struct Codes {
+  Int r, g, b, a;
+};
+
+HWY_INLINE Codes DevelopCodes(const DevelopTask& task, const float* pixels) {
+  const Vec4<Float> light = ExposedLight(task, pixels);
+  Vec3<Float> shown = ApplyToneMap(task.tone_map, Xyz(light));
+  if (task.opaque) shown = InFront(task, shown, light.w);
+  const Float largest(task.type == ChannelType::U8 ? 255.0f : 65535.0f);
+  // What is wholly transparent has no colour.
+  const Mask colored = task.opaque ? light.w == light.w : light.w > Float(0.0f);
+  const auto encode = [&](Float c) HWY_ATTR {
+    return Select(colored,
+                  task.type == ChannelType::U8 ? NearestSrgb8(c, *task.tables) : NearestSrgb16(c, task.thresholds16),
+                  Int(0));
+  };
+  return {encode(shown.x), encode(shown.y), encode(shown.z), TruncateToInt(light.w * largest + Float(0.5f))};
+}
+
+// LaneCount() pixels of four or three bytes; `room` pixels may be written.
+HWY_INLINE void StoreBytes(const Codes& codes, bool opaque, std::size_t room, std::byte* out) {
+  static_assert(std::endian::native == std::endian::little, "the packing below puts red first");
+  const Int packed = codes.r | ShiftLeft<8>(codes.g) | ShiftLeft<16>(codes.b) | ShiftLeft<24>(codes.a);
+  std::int32_t pixels[kMaxLanes];
+  Store(packed, pixels);
+  const std::size_t count = std::min(LaneCount(), room);
+  if (!opaque) {
+    std::memcpy(out, pixels, 4 * count);
+    return;
+  }
+  // Four bytes at a time, the last of which the next pixel overwrites.
+  for (std::size_t i = 0; i + 1 < count; ++i) std::memcpy(out + 3 * i, &pixels[i], 4);
+  std::memcpy(out + 3 * (count - 1), &pixels[count - 1], 3);
+}
+
+template <class Number, class Value>
+HWY_INLINE void StoreEach(const Value (&values)[4][kMaxLanes], bool opaque, std::size_t room, std::byte* out) {
+  const std::size_t channels = opaque ? 3 : 4;
+  const std::size_t count = std::min(LaneCount(), room);
+  Number packed[4 * kMaxLanes];
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t channel = 0; channel < channels; ++channel) {
+      packed[channels * i + channel] = static_cast<Number>(values[channel][i]);
+    }
+  }
+  std::memcpy(out, packed, count * channels * sizeof(Number));
+}
+
+HWY_INLINE void StoreWords(const Codes& codes, bool opaque, std::size_t room, std::byte* out) {
+  std::int32_t values[4][kMaxLanes];
+  Store(codes.r, values[0]);
+  Store(codes.g, values[1]);
+  Store(codes.b, values[2]);
+  Store(codes.a, values[3]);
+  StoreEach<std::uint16_t>(values, opaque, room, out);
+}
+
+HWY_INLINE void DevelopLinear(const DevelopTask& task, const float* pixels, std::size_t room, std::byte* out) {
+  const Vec4<Float> light = ExposedLight(task, pixels);
+  constexpr float kMax = std::numeric_limits<float>::max();
+  Vec3<Float> shown = Clamp(Xyz(light), Float(-kMax), Float(kMax));
+  if (task.opaque) shown = Clamp(InFront(task, shown, light.w), Float(-kMax), Float(kMax));
+  if (!task.opaque && room >= LaneCount()) {
+    // The picture's bytes come from operator new, which aligns them for float.
+    hn::StoreInterleaved4(shown.x.raw, shown.y.raw, shown.z.raw, light.w.raw, FloatTag(), reinterpret_cast<float*>(out));
+    return;
+  }
+  float values[4][kMaxLanes];
+  Store(shown.x, values[0]);
+  Store(shown.y, values[1]);
+  Store(shown.z, values[2]);
+  Store(light.w, values[3]);
+  StoreEach<float>(values, task.opaque, room, out);
+}
+
+void DevelopPixels(const DevelopTask& task) {
+  const std::size_t lanes = LaneCount();
+  const std::size_t pixel_size = SizeOf(task.type) * (task.opaque ? 3u : 4u);
+  for (std::size_t i = 0; i < task.count; i += lanes) {
+    const std::size_t count = std::min(lanes, task.count - i);
+    const float* pixels = task.pixels + 4 * i;
+    float padded[4 * kMaxLanes];
+    if (count < lanes) {
+      std::fill(std::begin(padded), std::end(padded), 0.0f);
+      std::copy_n(pixels, 4 * count, padded);
+      pixels = padded;
+    }
+    std::byte* out = task.out + i * pixel_size;
+    switch (task.type) {
+      case ChannelType::U8: StoreBytes(DevelopCodes(task, pixels), task.opaque, count, out); break;
+      case ChannelType::U16: StoreWords(DevelopCodes(task, pixels), task.opaque, count, out); break;
+      case ChannelType::F32: DevelopLinear(task, pixels, count, out); break;
+    }
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace facet
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace facet {
+
+FACET_EXPORT(DevelopPixels);
+void DevelopPixels(const DevelopTask& task) { FACET_DISPATCH(DevelopPixels)(task); }
+
+}  // namespace facet
+#endif

@@ -1,0 +1,27 @@
+// The kernel of Develop: consecutive pixels of a film to those of a picture.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "color/srgb.h"
+#include "facet/film.h"
+
+namespace facet {
+
+struct DevelopTask {
+  const float* pixels = nullptr;  // `count` times 4: linear, premultiplied
+  std::size_t count = 0;
+  std::byte* out = nullptr;  // `count` times 4 numbers of `type`, or 3 when `opaque`
+  ChannelType type = ChannelType::U8;
+  ToneMap tone_map = ToneMap::None;
+  float exposure = 1.0f;  // a factor, finite, positive
+  bool opaque = false;
+  std::array<float, 3> background_linear{};  // for `opaque`
+  const SrgbTables* tables = nullptr;
+  const float* thresholds16 = nullptr;  // Srgb16Thresholds(), for U16
+};
+
+void DevelopPixels(const DevelopTask& task);
+
+}  // namespace facet

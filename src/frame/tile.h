@@ -1,0 +1,72 @@
+// One tile's working memory: who is visible at each sample, and the fragments that are to be shaded.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "frame/constants.h"
+#include "frame/geometry.h"
+
+namespace facet {
+
+inline constexpr std::int32_t kNoRecord = -1;
+
+// Fragments: (pixel, triangle) pairs, in the order in which they were found.
+struct FragmentList {
+  std::vector<std::uint16_t> pixel;   // y * tile_size + x within the tile
+  std::vector<std::int32_t> record;   // frame-wide number of the triangle record
+  std::vector<std::uint8_t> samples;  // bit s: covers sample s
+
+  std::size_t Size() const { return pixel.size(); }
+  void Clear() { pixel.clear(), record.clear(), samples.clear(); }
+  void Push(std::uint16_t p, std::int32_t r, std::uint8_t s) { pixel.push_back(p), record.push_back(r), samples.push_back(s); }
+};
+
+// Fragments with their colours: linear radiance, not multiplied by alpha.
+struct ShadedFragments {
+  FragmentList list;
+  std::vector<float> red, green, blue, alpha;
+
+  void Resize() { for (auto* v : {&red, &green, &blue, &alpha}) v->resize(list.Size()); }
+};
+
+// Depth and triangle of every sample. Sample s of pixel (x, y) stands at Index(x, y, s): blocks of 8 x 8 pixels, in each
+// one plane of 64 after the other for each sample, so that lanes read neighbours.
+struct TileBuffers {
+  int x0 = 0, y0 = 0;          // picture position of the tile's top left pixel
+  int width = 0, height = 0;   // pixels of it inside the picture
+  int tile_size = 0, samples = 0;
+  std::vector<float> depth;
+  std::vector<std::int32_t> record;
+
+  int BlocksPerRow() const { return tile_size / kBlockSize; }
+  std::size_t BlockOffset(int block_x, int block_y) const {
+    return std::size_t(block_y * BlocksPerRow() + block_x) * std::size_t(samples * kBlockPixels);
+  }
+  std::size_t Index(int x, int y, int sample) const {
+    return BlockOffset(x / kBlockSize, y / kBlockSize) +
+           std::size_t(sample * kBlockPixels + (y % kBlockSize) * kBlockSize + x % kBlockSize);
+  }
+};
+
+// Depth of a record within one block: c + dx * x + dy * y, pixels from the block's corner, kept within [low, high].
+// Computed in one way by all who need it, so that they agree to the bit.
+struct BlockDepth {
+  float c, dx, dy, low, high;
+};
+
+inline BlockDepth MakeBlockDepth(const TriangleRecord& r, int block_x_px, int block_y_px) {
+  constexpr double kPixel = 1.0 / kSubpixelScale;
+  const double x = block_x_px - r.x_fx8[0] * kPixel, y = block_y_px - r.y_fx8[0] * kPixel;
+  return {static_cast<float>(double{r.depth_0} + double{r.depth_dx} * x + double{r.depth_dy} * y), r.depth_dx, r.depth_dy,
+          r.depth_min, r.depth_max};
+}
+
+// `x`, `y`: pixels from the block's corner, of a sample.
+inline float DepthAt(const BlockDepth& d, float x, float y) {
+  const float z = (d.c + d.dx * x) + d.dy * y;
+  const float raised = z > d.low ? z : d.low;
+  return raised < d.high ? raised : d.high;
+}
+
+}  // namespace facet

@@ -1,0 +1,30 @@
+// How the picture is cut into tiles.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace facet {
+
+struct TileGrid {
+  int width = 0, height = 0;  // pixels
+  int tile_size = 0;          // pixels, a power of two from 8 to 64
+  int columns = 0, rows = 0;
+
+  int Count() const { return columns * rows; }
+};
+
+TileGrid MakeTileGrid(int width, int height, int tile_size);
+
+// A run of one chunk's entries that belong to one tile.
+struct TileRun {
+  std::uint32_t chunk;
+  std::uint32_t begin, end;  // in TriangleChunk::entries
+};
+
+// For each tile the runs of all chunks, in chunk order: opaque and alpha-tested ones, and blended ones.
+struct TileLists {
+  std::vector<std::vector<TileRun>> opaque, masked, blended;
+};
+
+}  // namespace facet

@@ -1,0 +1,68 @@
+// Accessors: typed, bounds-checked reading of what buffer views hold.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "gltf/buffers.h"
+
+namespace facet::gltf {
+
+enum class ComponentType : std::uint16_t { I8 = 5120, U8, I16, U16, U32 = 5125, F32 };
+
+constexpr std::size_t SizeOfComponent(ComponentType type) {
+  switch (type) {
+    case ComponentType::I8:
+    case ComponentType::U8: return 1;
+    case ComponentType::I16:
+    case ComponentType::U16: return 2;
+    default: return 4;
+  }
+}
+
+// Elements that have been checked to lie within their bytes.
+struct AccessorView {
+  Bytes bytes;             // the first element starts here; null data: all zeros
+  std::size_t stride = 0;  // bytes from one element to the next
+  std::size_t count = 0;
+  ComponentType type = ComponentType::F32;
+  int components = 1;  // 1 to 4 for vectors; 4, 9 or 16 for matrices
+  bool is_matrix = false;
+  bool normalized = false;
+  // Elements replaced: `sparse_count` indices, tightly packed, and as many elements.
+  std::size_t sparse_count = 0;
+  ComponentType sparse_type = ComponentType::U32;
+  Bytes sparse_indices, sparse_values;
+};
+
+// A run of elements.
+struct Range {
+  std::size_t first = 0, count = 0;
+};
+
+class AccessorReader {
+ public:
+  AccessorReader(Context& context, BufferStore& buffers) : context_(context), buffers_(buffers) {}
+
+  // Throws Error(InvalidInput) when an element lies outside of its bytes, Error(OutOfMemory) when the accessor claims
+  // more elements than a file that does not hold them may.
+  AccessorView View(int accessor);
+
+  std::size_t Count(int accessor) const;
+
+  // The first min(components, view.components) numbers of each element of `range` (within view.count), as float:
+  // integers that are normalised by glTF 2.0's section 3.11 (max(c / 127, -1) and its like), others by value. What is
+  // not finite becomes 0, with one warning at `place`. `out` is `components` floats an element; what an element lacks
+  // is left as it is.
+  void ReadFloats(const AccessorView& view, Range range, int components, float* out, const Place& place);
+
+  // Of scalars or vectors of unsigned integers, without normalisation.
+  void ReadUnsigned(const AccessorView& view, Range range, int components, std::uint32_t* out);
+
+ private:
+  Context& context_;
+  BufferStore& buffers_;
+};
+
+}  // namespace facet::gltf

@@ -1,0 +1,52 @@
+// The attributes of one primitive, wherever they are stored, and the arrays of the Scene that they become.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "gltf/accessor.h"
+#include "gltf/draco.h"
+
+namespace facet::gltf {
+
+// A primitive's (or morph target's) attributes by semantic; every array that it gives has `range.count` entries.
+class AttributeSource {
+ public:
+  // `draco` may be null. `vertex_count` is what every attribute must have.
+  AttributeSource(Context& context, AccessorReader& reader, const std::map<std::string, int>& attributes,
+                  const DracoMesh* draco, std::size_t vertex_count, Range range, const Place& place)
+      : context_(context), reader_(reader), attributes_(attributes), draco_(draco), vertex_count_(vertex_count),
+        range_(range), place_(place) {}
+
+  bool Has(const std::string& semantic) const { return attributes_.count(semantic) != 0; }
+  // Checked to have as many elements as the primitive has vertices, and between the two numbers of components.
+  AccessorView View(const std::string& semantic, int least_components, int most_components);
+
+  std::vector<glm::vec2> Vec2(const std::string& semantic);
+  std::vector<glm::vec3> Vec3(const std::string& semantic, int least = 3, int most = 3);
+  std::vector<glm::vec4> Vec4(const std::string& semantic);
+  // RGB gets `alpha`. Integers are normalised even where the file forgot to say so.
+  std::vector<glm::vec4> Color(const std::string& semantic, float alpha);
+  std::vector<glm::vec4> Weights(const std::string& semantic);
+  std::vector<glm::u16vec4> Joints(const std::string& semantic);
+
+  // Warns of semantics that glTF does not know or facet does not read.
+  void WarnOfOthers(bool is_target);
+
+ private:
+  Context& context_;
+  AccessorReader& reader_;
+  const std::map<std::string, int>& attributes_;
+  const DracoMesh* draco_;
+  std::size_t vertex_count_;
+  Range range_;
+  const Place& place_;
+};
+
+// The n of "NAME_n", or -1. Sets beyond kMaxSets are not read.
+inline constexpr int kMaxSets = 16;
+int SetOf(const std::string& semantic, const char* name);
+
+}  // namespace facet::gltf

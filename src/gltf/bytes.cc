@@ -1,0 +1,39 @@
+#include "gltf/bytes.h"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <string>
+
+#include "facet/error.h"
+
+namespace facet::gltf {
+
+MutableBytes AllocateBytes(std::size_t size) {
+  // make_shared_for_overwrite is missing in the standard libraries that we support.
+  return {std::shared_ptr<std::byte[]>(new std::byte[size ? size : 1]), size};
+}
+
+Bytes ReadWholeFile(const std::filesystem::path& path) {
+  const std::string name = path.string();
+  std::error_code ignored;
+  const auto status = std::filesystem::status(path, ignored);
+  if (!std::filesystem::exists(status)) {
+    throw Error(ErrorCode::NotFound, "no such file", name, "check the path");
+  }
+  // A directory, a device or a pipe would give no size, or no end.
+  if (!std::filesystem::is_regular_file(status)) throw Error(ErrorCode::NotFound, "not a regular file", name);
+  std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(name.c_str(), "rb"), &std::fclose);
+  if (!file) {
+    throw Error(ErrorCode::NotFound, std::string("cannot be opened (") + std::strerror(errno) + ")", name,
+                "check the permissions");
+  }
+  const std::uintmax_t size = std::filesystem::file_size(path, ignored);
+  if (ignored) throw Error(ErrorCode::NotFound, "cannot be read", name);
+  MutableBytes bytes = AllocateBytes(static_cast<std::size_t>(size));
+  bytes.size = std::fread(bytes.data(), 1, bytes.size, file.get());
+  if (std::ferror(file.get())) throw Error(ErrorCode::NotFound, "cannot be read", name);
+  return bytes.Freeze();
+}
+
+}  // namespace facet::gltf

@@ -1,0 +1,69 @@
+// What every part of the loader is handed: the document, the bounds, and where to complain.
+#pragma once
+
+#include <filesystem>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "facet/load.h"
+#include "gltf/bytes.h"
+#include "gltf/document.h"
+
+namespace facet::gltf {
+
+struct Context {
+  Context(std::filesystem::path file_path, std::string shown_name, const LoadOptions& load_options)
+      : path(std::move(file_path)), file_name(std::move(shown_name)), options(load_options), place(file_name) {}
+  Context(const Context&) = delete;
+  Context& operator=(const Context&) = delete;
+
+  // Once for each text.
+  void Warn(const Place& where, const std::string& what) {
+    const std::string path_text = where.Path();
+    WarnLine(path_text.empty() ? what : path_text + ": " + what);
+  }
+  void WarnLine(const std::string& line) {
+    if (warned.insert(line).second) report.warnings.push_back(line);
+  }
+
+  // Counts memory for geometry before it is taken. The bound is the options', and for what many primitives share or no
+  // buffer holds, a multiple of the file's size: a few kilobytes must not unfold to gigabytes. Throws
+  // Error(OutOfMemory).
+  void Charge(std::size_t count, std::size_t size_each, const Place& where) {
+    constexpr std::size_t kSmall = std::size_t(256) << 20, kUnfolding = 1024;
+    const std::size_t unfolded = kSmall + report.file_bytes * kUnfolding;
+    const std::size_t bound = unfolded < options.max_geometry_bytes ? unfolded : options.max_geometry_bytes;
+    if (geometry_bytes > bound || (size_each != 0 && count > (bound - geometry_bytes) / size_each)) {
+      Fail(where, "the geometry needs more memory than the bound of " + std::to_string(bound) + " bytes",
+           bound == unfolded ? "so small a file should not unfold so far" : "raise LoadOptions::max_geometry_bytes",
+           ErrorCode::OutOfMemory);
+    }
+    geometry_bytes += count * size_each;
+  }
+
+  const Json& Object(const char* list, std::size_t index) const { return document.root[list][index]; }
+  bool IsRequired(const std::string& extension) const {
+    for (const auto& use : report.extensions) {
+      if (use.name == extension) return use.required;
+    }
+    return false;
+  }
+  bool IsUsed(const std::string& extension) const {
+    for (const auto& use : report.extensions) {
+      if (use.name == extension) return true;
+    }
+    return false;
+  }
+
+  std::filesystem::path path;
+  std::string file_name;
+  LoadOptions options;
+  Place place;
+  Document document;
+  LoadReport report;
+  std::set<std::string> warned;
+  std::size_t geometry_bytes = 0;
+};
+
+}  // namespace facet::gltf

@@ -1,0 +1,40 @@
+#include "gltf/extensions.h"
+
+#include <algorithm>
+#include <map>
+
+namespace facet::gltf {
+
+bool IsSupported(const std::string& extension) {
+  static const char* const kSupported[] = {
+      "EXT_mesh_gpu_instancing", "EXT_meshopt_compression", "EXT_texture_webp", "KHR_draco_mesh_compression",
+      "KHR_lights_punctual", "KHR_materials_emissive_strength", "KHR_materials_unlit", "KHR_materials_variants",
+      "KHR_mesh_quantization", "KHR_node_visibility", "KHR_texture_transform",
+      // Only say something about the data; leaving them aside is all that there is to do.
+      "FB_ngon_encoding", "KHR_xmp", "KHR_xmp_json_ld"};
+  return std::find(std::begin(kSupported), std::end(kSupported), extension) != std::end(kSupported);
+}
+
+void ReadExtensions(Context& context) {
+  std::map<std::string, bool> required;
+  for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
+    const Json* names = Find(context.document.root, list);
+    if (!names) continue;
+    for (const Json& name : *names) required[name.get<std::string>()] |= std::string(list) == "extensionsRequired";
+  }
+  std::string missing;
+  for (const auto& [name, is_required] : required) {
+    const bool supported = IsSupported(name);
+    context.report.extensions.push_back({name, is_required, supported});
+    if (supported) continue;
+    context.Warn(Place(context.place, is_required ? "extensionsRequired" : "extensionsUsed"),
+                 "ignored: " + name + " is not supported");
+    if (is_required) missing += (missing.empty() ? "" : ", ") + name;
+  }
+  if (!missing.empty() && !context.options.ignore_required_extensions) {
+    Fail(Place(context.place, "extensionsRequired"), "the file requires " + missing + ", which facet does not support",
+         "export it without, or ignore required extensions", ErrorCode::Unsupported);
+  }
+}
+
+}  // namespace facet::gltf

@@ -1,0 +1,16 @@
+// Images and textures. Pictures stay encoded until someone needs them.
+#pragma once
+
+#include "facet/scene.h"
+#include "gltf/buffers.h"
+
+namespace facet::gltf {
+
+// One SceneImage for each image of the file, under the same index. A picture that is missing or malformed is a warning
+// here, and an Error when it is decoded.
+void ReadImages(Context& context, BufferStore& buffers, Scene& scene);
+
+// One Texture for each texture of the file, with its sampler.
+void ReadTextures(Context& context, Scene& scene);
+
+}  // namespace facet::gltf

@@ -1,0 +1,31 @@
+// URIs as glTF uses them: relative references and data URIs (RFC 3986, RFC 2397, RFC 4648).
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "gltf/bytes.h"
+
+namespace facet::gltf {
+
+// "%20" to " ". A percent sign that is not followed by two hexadecimal digits stands for itself.
+std::string PercentDecode(std::string_view text);
+
+bool IsDataUri(std::string_view uri);
+
+// The bytes that a data URI holds (base64, or percent-encoded text); nothing when it is malformed.
+std::optional<Bytes> DecodeDataUri(std::string_view uri);
+
+// Standard or URL-safe alphabet, padding optional; nothing when it is malformed.
+std::optional<Bytes> DecodeBase64(std::string_view text);
+
+// True for "http://...", "file:...": what names a scheme. A single letter is no scheme ("C:" is a Windows drive).
+bool HasScheme(std::string_view uri);
+
+// The file that a relative reference names, beside `folder`: the decoded name, or the name as it is written where only
+// that exists. Nothing for absolute references and those with a scheme.
+std::optional<std::filesystem::path> ResolveRelative(const std::filesystem::path& folder, std::string_view uri);
+
+}  // namespace facet::gltf

@@ -1,0 +1,45 @@
+// Pictures as files: decoding from memory, encoding to memory. PNG, JPEG and Radiance HDR are read here; every other
+// format goes through the OpenImageIO module (see oiio_loader.h), which is opened when the first such file comes.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "facet/image.h"
+
+namespace facet {
+
+// The largest picture that is decoded: pixels along a side, and pixels in all.
+inline constexpr int kMaxImageSide = 32768;
+inline constexpr std::size_t kMaxImagePixels = std::size_t(1) << 28;
+
+// Decodes a whole file of any format that facet or OpenImageIO reads; the format is told by content, never by name.
+// Channels and depth are the file's (a palette becomes RGB or RGBA, grey of 1, 2 and 4 bits becomes 8, PNG of 16 bits
+// stays U16, CMYK becomes RGB); alpha is straight. PNG and JPEG are Encoding::Srgb and HDR is Encoding::Linear: as
+// glTF 2.0 demands, gamma chunks, colour profiles and orientation tags are ignored.
+// `name` is what messages call the picture. Thread-safe.
+// Throws Error: InvalidInput (broken, cut off, or of no known format), OutOfMemory (larger than the limits above),
+// MissingModule (the format needs OpenImageIO and its module is not there).
+Image DecodeImage(std::span<const std::byte> bytes, const std::string& name);
+
+// A PNG file of an image of type U8 or U16 (Encoding::Srgb adds the sRGB chunk; Linear adds gAMA 1.0). `text` are
+// keyword and value pairs in UTF-8: tEXt where ASCII suffices, iTXt otherwise. The bytes are a function of the
+// arguments (and of the version of zlib). Throws Error: InvalidUsage (F32, a wrong byte count, or a bad keyword).
+std::vector<std::byte> EncodePng(const Image& image, const std::vector<std::array<std::string, 2>>& text = {});
+
+// Calls write(temporary path in the same folder), then gives that file the name `path`: it appears whole or not at
+// all, and an existing file stays as it was when anything fails. Throws what `write` throws, or Error(OutputFailed).
+void WriteFileWhole(const std::filesystem::path& path, const std::function<void(const std::filesystem::path&)>& write);
+
+// The same for bytes in memory.
+void WriteFileWhole(const std::filesystem::path& path, std::span<const std::byte> bytes);
+
+// The bytes of a file. Throws Error: NotFound (no such file, a folder, or no permission), OutOfMemory.
+std::vector<std::byte> ReadFileWhole(const std::filesystem::path& path);
+
+}  // namespace facet

@@ -1,0 +1,184 @@
+// libjpeg reports errors by longjmp, which must not skip destructors: every function here that calls setjmp holds
+// plain data only, and whoever owns memory calls those functions.
+#include "image/jpeg.h"
+
+#include <csetjmp>
+#include <cstdio>
+#include <cstring>
+#include <vector>
+
+// jpeglib.h needs size_t and FILE to be known.
+#include <jpeglib.h>
+
+#include <jerror.h>
+
+#include "facet/error.h"
+#include "image/codec.h"
+#include "image/limits.h"
+
+namespace facet {
+namespace {
+
+// A progressive file of a few kilobytes can ask for thousands of passes over the whole picture.
+constexpr int kMaxScans = 500;
+
+struct ErrorState {
+  jpeg_error_mgr manager;  // first: libjpeg hands back a pointer to it
+  std::jmp_buf jump;
+  char text[JMSG_LENGTH_MAX];
+};
+
+[[noreturn]] void OnError(j_common_ptr codec) {
+  auto* state = reinterpret_cast<ErrorState*>(codec->err);
+  codec->err->format_message(codec, state->text);
+  std::longjmp(state->jump, 1);
+}
+
+// Warnings (level -1) that mean lost picture data are errors here; libjpeg would fill the hole with grey.
+void OnMessage(j_common_ptr codec, int level) {
+  if (level >= 0) return;
+  switch (codec->err->msg_code) {
+    case JWRN_JPEG_EOF:
+    case JWRN_HIT_MARKER:
+    case JWRN_HUFF_BAD_CODE:
+    case JWRN_MUST_RESYNC:
+    case JWRN_NOT_SEQUENTIAL:
+      OnError(codec);
+    default:
+      break;
+  }
+}
+
+void OnOutput(j_common_ptr) {}
+
+struct ScanGuard {
+  jpeg_progress_mgr manager;
+  bool too_many;
+};
+
+void OnProgress(j_common_ptr codec) {
+  if (!codec->is_decompressor) return;
+  const auto* decoder = reinterpret_cast<j_decompress_ptr>(codec);
+  if (decoder->input_scan_number <= kMaxScans) return;
+  auto* state = reinterpret_cast<ErrorState*>(codec->err);
+  std::snprintf(state->text, sizeof state->text, "more than %d scans", kMaxScans);
+  std::longjmp(state->jump, 1);
+}
+
+bool Create(jpeg_decompress_struct* decoder, ErrorState* errors) {
+  if (setjmp(errors->jump) != 0) return false;
+  jpeg_create_decompress(decoder);
+  return true;
+}
+
+bool Start(jpeg_decompress_struct* decoder, ErrorState* errors, const unsigned char* data, std::size_t size) {
+  if (setjmp(errors->jump) != 0) return false;
+  jpeg_mem_src(decoder, data, size);
+  jpeg_read_header(decoder, TRUE);
+  switch (decoder->jpeg_color_space) {
+    case JCS_GRAYSCALE:
+      decoder->out_color_space = JCS_GRAYSCALE;
+      break;
+    case JCS_RGB:
+    case JCS_YCbCr:
+      decoder->out_color_space = JCS_RGB;
+      break;
+    case JCS_CMYK:
+    case JCS_YCCK:
+      decoder->out_color_space = JCS_CMYK;
+      break;
+    default:
+      ERREXIT(decoder, JERR_CONVERSION_NOTIMPL);
+  }
+  decoder->dct_method = JDCT_ISLOW;
+  decoder->do_fancy_upsampling = TRUE;
+  decoder->do_block_smoothing = FALSE;  // guesses what a file leaves out; differs between versions
+  return true;
+}
+
+bool ReadRows(jpeg_decompress_struct* decoder, ErrorState* errors, JSAMPROW* rows) {
+  if (setjmp(errors->jump) != 0) return false;
+  jpeg_start_decompress(decoder);
+  while (decoder->output_scanline < decoder->output_height) {
+    const JDIMENSION at = decoder->output_scanline;
+    jpeg_read_scanlines(decoder, rows + at, decoder->output_height - at);
+  }
+  jpeg_finish_decompress(decoder);
+  return true;
+}
+
+struct Decoder {
+  ErrorState errors{};
+  jpeg_decompress_struct decoder{};
+  ScanGuard guard{};
+  Decoder() {
+    decoder.err = jpeg_std_error(&errors.manager);
+    errors.manager.error_exit = OnError;
+    errors.manager.emit_message = OnMessage;
+    errors.manager.output_message = OnOutput;
+    if (!Create(&decoder, &errors)) throw Error(ErrorCode::OutOfMemory, std::string("libjpeg: ") + errors.text);
+    guard.manager.progress_monitor = OnProgress;
+    decoder.progress = &guard.manager;
+  }
+  ~Decoder() { jpeg_destroy_decompress(&decoder); }
+  Decoder(const Decoder&) = delete;
+  Decoder& operator=(const Decoder&) = delete;
+};
+
+// Naive inks, as the browsers' fallback without a colour profile. Adobe's files hold 255 - ink.
+void CmykToRgb(const std::vector<std::byte>& cmyk, bool inverted, Image& image) {
+  const auto* from = reinterpret_cast<const unsigned char*>(cmyk.data());
+  auto* to = image.As<unsigned char>();
+  const unsigned flip = inverted ? 0u : 255u;
+  for (std::size_t pixel = 0; pixel < image.PixelCount(); ++pixel) {
+    const unsigned paper = from[4 * pixel + 3] ^ flip;
+    for (std::size_t c = 0; c < 3; ++c) {
+      to[3 * pixel + c] = static_cast<unsigned char>(((from[4 * pixel + c] ^ flip) * paper + 127u) / 255u);
+    }
+  }
+}
+
+}  // namespace
+
+bool LooksLikeJpeg(std::span<const std::byte> bytes) {
+  return bytes.size() >= 3 && bytes[0] == std::byte{0xFF} && bytes[1] == std::byte{0xD8} && bytes[2] == std::byte{0xFF};
+}
+
+Image DecodeJpeg(std::span<const std::byte> bytes, const std::string& name) {
+  Decoder jpeg;
+  const auto fail = [&]() -> Error {
+    if (jpeg.errors.manager.msg_code == JERR_OUT_OF_MEMORY) {
+      return Error(ErrorCode::OutOfMemory, std::string("libjpeg: ") + jpeg.errors.text, name);
+    }
+    return Error(ErrorCode::InvalidInput, std::string("broken JPEG: ") + jpeg.errors.text, name);
+  };
+  if (!Start(&jpeg.decoder, &jpeg.errors, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size())) {
+    throw fail();
+  }
+  CheckImageSize(jpeg.decoder.image_width, jpeg.decoder.image_height, name);
+
+  const bool inks = jpeg.decoder.out_color_space == JCS_CMYK;
+  Image image;
+  image.width = static_cast<int>(jpeg.decoder.image_width);
+  image.height = static_cast<int>(jpeg.decoder.image_height);
+  image.channels = jpeg.decoder.out_color_space == JCS_GRAYSCALE ? 1 : 3;
+  image.type = ChannelType::U8;
+  image.encoding = Encoding::Srgb;
+  const std::size_t decoded_channels = inks ? 4 : static_cast<std::size_t>(image.channels);
+  const std::size_t row_bytes = std::size_t(image.width) * decoded_channels;
+  std::vector<std::byte> decoded = AllocatePixels(row_bytes * std::size_t(image.height), name);
+  std::vector<JSAMPROW> rows(static_cast<std::size_t>(image.height));
+  for (std::size_t y = 0; y < rows.size(); ++y) {
+    rows[y] = reinterpret_cast<JSAMPROW>(decoded.data() + y * row_bytes);
+  }
+  if (!ReadRows(&jpeg.decoder, &jpeg.errors, rows.data())) throw fail();
+  if (inks) {
+    image.bytes = AllocatePixels(image.PixelCount() * 3, name);
+    CmykToRgb(decoded, jpeg.decoder.saw_Adobe_marker != 0, image);
+  } else {
+    image.bytes = std::move(decoded);
+  }
+  return image;
+}
+
+}  // namespace facet

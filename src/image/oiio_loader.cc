@@ -1,0 +1,175 @@
+#include "image/oiio_loader.h"
+
+#include <dlfcn.h>
+
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+#include <mutex>
+#include <optional>
+
+#include "facet/error.h"
+#include "image/codec.h"
+#include "image/limits.h"
+#include "image/oiio_abi.h"
+
+namespace facet {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr char kFileName[] = "facet_oiio.so";
+constexpr std::size_t kMessageSize = 512;
+
+struct Module {
+  FacetOiioDecode decode = nullptr;
+  FacetOiioEncode encode = nullptr;
+  FacetOiioFree free = nullptr;
+};
+
+std::mutex mutex;
+std::optional<Module> opened;                          // guarded by mutex; never closed
+const std::vector<fs::path>* search_override = nullptr;  // guarded by mutex
+
+std::vector<fs::path> Candidates() {
+  std::vector<fs::path> out;
+  if (search_override) {
+    for (const fs::path& folder : *search_override) out.push_back(folder / kFileName);
+    return out;
+  }
+  if (const char* variable = std::getenv("FACET_MODULE_PATH")) {
+    const std::string folders = variable;
+    for (std::size_t at = 0; at <= folders.size();) {
+      const std::size_t end = std::min(folders.find(':', at), folders.size());
+      if (end > at) out.push_back(fs::path(folders.substr(at, end - at)) / kFileName);
+      at = end + 1;
+    }
+  }
+  std::error_code ignored;
+  const fs::path program = fs::read_symlink("/proc/self/exe", ignored).parent_path();
+  if (!program.empty()) out.push_back(program / kFileName);
+  out.push_back(fs::path(FACET_MODULE_BUILD_DIR) / kFileName);
+  if (!program.empty()) {
+    for (const char* lib : {FACET_MODULE_INSTALL_DIR, "lib/" FACET_MODULE_ARCHITECTURE "/facet", "lib/facet"}) {
+      out.push_back((program.parent_path() / lib / kFileName).lexically_normal());
+    }
+  }
+  out.emplace_back(kFileName);
+  return out;
+}
+
+template <class Function>
+bool Find(void* library, const char* name, Function* function) {
+  *function = reinterpret_cast<Function>(dlsym(library, name));
+  return *function != nullptr;
+}
+
+Module Open() {
+  std::string trouble;  // of a module that is there but does not open: more telling than that others are not there
+  for (const fs::path& path : Candidates()) {
+    std::error_code ignored;
+    if (path.has_parent_path() && !fs::exists(path, ignored)) continue;
+    void* library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+    if (!library) {
+      const char* why = dlerror();
+      if (path.has_parent_path() && trouble.empty()) trouble = why ? why : "dlopen failed";
+      continue;
+    }
+    Module module;
+    FacetOiioAbiVersion version = nullptr;
+    if (Find(library, "FacetOiioAbiVersion_", &version) && version() == FACET_OIIO_ABI_VERSION &&
+        Find(library, "FacetOiioDecode_", &module.decode) && Find(library, "FacetOiioEncode_", &module.encode) &&
+        Find(library, "FacetOiioFree_", &module.free)) {
+      return module;
+    }
+    dlclose(library);
+    if (trouble.empty()) trouble = path.string() + " belongs to another version of facet";
+  }
+  for (char& c : trouble) {
+    if (c == '\n') c = ' ';
+  }
+  throw Error(ErrorCode::MissingModule,
+              std::string("the module ") + kFileName + (trouble.empty() ? " is not installed" : " does not open: " + trouble),
+              {}, std::string("build facet with OpenImageIO, or set FACET_MODULE_PATH to the folder of ") + kFileName);
+}
+
+Module Get() {
+  const std::lock_guard lock(mutex);
+  if (search_override) return Open();
+  if (!opened) opened = Open();
+  return *opened;
+}
+
+// The same error, with the picture that needed the module.
+Module GetFor(const std::string& name, const char* need) {
+  try {
+    return Get();
+  } catch (const Error& error) {
+    throw Error(error.code(), need + error.message(), name, error.hint());
+  }
+}
+
+ErrorCode CodeOf(int result) {
+  switch (result) {
+    case FACET_OIIO_INVALID_INPUT:
+      return ErrorCode::InvalidInput;
+    case FACET_OIIO_TOO_LARGE:
+      return ErrorCode::OutOfMemory;
+    case FACET_OIIO_OUTPUT_FAILED:
+      return ErrorCode::OutputFailed;
+    case FACET_OIIO_UNSUPPORTED:
+      return ErrorCode::Unsupported;
+    default:
+      return ErrorCode::Internal;
+  }
+}
+
+}  // namespace
+
+Image DecodeWithOiio(std::span<const std::byte> bytes, const std::string& name) {
+  const Module module = GetFor(name, "not PNG, JPEG or Radiance, and ");
+  FacetOiioPicture picture{};
+  char message[kMessageSize] = {};
+  const int result = module.decode(bytes.data(), bytes.size(), name.c_str(), kMaxImageSide, kMaxImagePixels, &picture,
+                                   message, sizeof message);
+  const std::unique_ptr<void, FacetOiioFree> owner(picture.pixels, module.free);
+  if (result != FACET_OIIO_OK) throw Error(CodeOf(result), message, name);
+  Image image;
+  image.width = picture.width;
+  image.height = picture.height;
+  image.channels = picture.channels;
+  image.type = static_cast<ChannelType>(picture.type);
+  image.encoding = static_cast<Encoding>(picture.encoding);
+  image.bytes = AllocatePixels(picture.size, name);
+  std::memcpy(image.bytes.data(), picture.pixels, picture.size);
+  return image;
+}
+
+void EncodeWithOiio(const std::filesystem::path& path, const Image& image, bool premultiplied) {
+  const Module module = GetFor(path.string(), "only PNG is written without OpenImageIO, and ");
+  FacetOiioPicture picture{};
+  picture.width = image.width;
+  picture.height = image.height;
+  picture.channels = image.channels;
+  picture.type = static_cast<std::int32_t>(image.type);
+  picture.encoding = static_cast<std::int32_t>(image.encoding);
+  picture.pixels = const_cast<std::byte*>(image.bytes.data());  // the structure serves reading too
+  picture.size = image.bytes.size();
+  char message[kMessageSize] = {};
+  const int result = module.encode(path.c_str(), &picture, premultiplied, message, sizeof message);
+  if (result != FACET_OIIO_OK) throw Error(CodeOf(result), message, path.string());
+}
+
+void RequireOiio() { Get(); }
+
+std::vector<std::filesystem::path> OiioModuleCandidates() {
+  const std::lock_guard lock(mutex);
+  return Candidates();
+}
+
+void OverrideOiioSearch(const std::vector<std::filesystem::path>* folders) {
+  const std::lock_guard lock(mutex);
+  search_override = folders;
+}
+
+}  // namespace facet

@@ -1,0 +1,192 @@
+#include "image/radiance.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <string_view>
+#include <vector>
+
+#include "facet/error.h"
+#include "image/codec.h"
+#include "image/limits.h"
+
+namespace facet {
+namespace {
+
+using Rgbe = std::array<std::uint8_t, 4>;
+
+class Reader {
+ public:
+  Reader(std::span<const std::byte> bytes, const std::string& name) : bytes_(bytes), name_(name) {}
+
+  [[noreturn]] void Fail(const std::string& why) const {
+    throw Error(ErrorCode::InvalidInput, "broken Radiance picture: " + why, name_);
+  }
+
+  std::uint8_t Byte() {
+    if (at_ >= bytes_.size()) Fail("the file is cut off");
+    return static_cast<std::uint8_t>(bytes_[at_++]);
+  }
+
+  void Pixels(Rgbe* to, std::size_t count) {
+    if (bytes_.size() - at_ < count * 4) Fail("the file is cut off");
+    std::memcpy(to, bytes_.data() + at_, count * 4);
+    at_ += count * 4;
+  }
+
+  void Bytes(std::uint8_t* to, std::size_t count) {
+    if (bytes_.size() - at_ < count) Fail("the file is cut off");
+    std::memcpy(to, bytes_.data() + at_, count);
+    at_ += count;
+  }
+
+  // Without its line break.
+  std::string_view Line() {
+    const char* begin = reinterpret_cast<const char*>(bytes_.data()) + at_;
+    const std::size_t left = bytes_.size() - at_;
+    const void* end = std::memchr(begin, '\n', left);
+    if (!end) Fail("the file is cut off in its header");
+    const auto length = static_cast<std::size_t>(static_cast<const char*>(end) - begin);
+    at_ += length + 1;
+    std::string_view line(begin, length);
+    if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+    return line;
+  }
+
+  // How much pixel data there may still be.
+  std::size_t Left() const { return bytes_.size() - at_; }
+
+ private:
+  std::span<const std::byte> bytes_;
+  std::size_t at_ = 0;
+  const std::string& name_;
+};
+
+struct Resolution {
+  std::uint64_t width = 0, height = 0;
+  bool bottom_up = false, right_to_left = false;
+};
+
+// "-Y 512 +X 1024": rows from the top (-Y), pixels from the left (+X).
+Resolution ParseResolution(std::string_view line, const Reader& reader, const std::string& name) {
+  Resolution out;
+  const char* at = line.data();
+  const char* const end = at + line.size();
+  for (int axis = 0; axis < 2; ++axis) {
+    while (at < end && *at == ' ') ++at;
+    if (end - at < 4 || (*at != '+' && *at != '-') || (at[1] != 'X' && at[1] != 'Y') || at[2] != ' ') {
+      reader.Fail("its size cannot be read");
+    }
+    const bool plus = *at == '+', is_x = at[1] == 'X';
+    if (is_x != (axis == 1)) {
+      throw Error(ErrorCode::Unsupported, "a Radiance picture stored by columns", name, "convert it to rows");
+    }
+    at += 3;
+    std::uint64_t number = 0;
+    const auto [after, bad] = std::from_chars(at, end, number);
+    if (bad != std::errc()) reader.Fail("its size cannot be read");
+    at = after;
+    (is_x ? out.width : out.height) = number;
+    (is_x ? out.right_to_left : out.bottom_up) = is_x ? !plus : plus;
+  }
+  return out;
+}
+
+// New run lengths: the four components one after the other, runs of at most 127 equal or 128 different bytes.
+void ReadPlanes(Reader& reader, std::vector<Rgbe>& row, std::vector<std::uint8_t>& plane) {
+  for (std::size_t c = 0; c < 4; ++c) {
+    for (std::size_t x = 0; x < row.size();) {
+      const std::size_t code = reader.Byte();
+      const std::size_t count = code > 128 ? code - 128 : code;
+      if (count == 0 || count > row.size() - x) reader.Fail("a run is longer than its row");
+      if (code > 128) {
+        std::fill_n(plane.begin() + static_cast<std::ptrdiff_t>(x), count, reader.Byte());
+      } else {
+        reader.Bytes(plane.data() + x, count);
+      }
+      x += count;
+    }
+    for (std::size_t x = 0; x < row.size(); ++x) row[x][c] = plane[x];
+  }
+}
+
+// Old run lengths: the pixel (1, 1, 1, n) repeats the one before it n times; several in a row are the bytes of a
+// longer count, lowest first. `first` has been read already. A flat picture is one that never repeats.
+void ReadOldRow(Reader& reader, Rgbe first, std::vector<Rgbe>& row) {
+  unsigned shift = 0;
+  Rgbe pixel = first;
+  for (std::size_t x = 0;;) {
+    if (pixel[0] == 1 && pixel[1] == 1 && pixel[2] == 1) {
+      if (x == 0 || shift > 24) reader.Fail("a run repeats nothing");
+      const std::size_t count = std::size_t(pixel[3]) << shift;
+      if (count > row.size() - x) reader.Fail("a run is longer than its row");
+      std::fill_n(row.begin() + static_cast<std::ptrdiff_t>(x), count, row[x - 1]);
+      x += count;
+      shift += 8;
+    } else {
+      row[x++] = pixel;
+      shift = 0;
+    }
+    if (x >= row.size()) return;
+    reader.Pixels(&pixel, 1);
+  }
+}
+
+void ReadRow(Reader& reader, std::vector<Rgbe>& row, std::vector<std::uint8_t>& plane) {
+  Rgbe first;
+  reader.Pixels(&first, 1);
+  const bool planes = row.size() >= 8 && row.size() <= 32767 && first[0] == 2 && first[1] == 2 && first[2] < 128;
+  if (!planes) return ReadOldRow(reader, first, row);
+  if ((std::size_t(first[2]) << 8 | first[3]) != row.size()) reader.Fail("a row's length differs from the width");
+  ReadPlanes(reader, row, plane);
+}
+
+}  // namespace
+
+bool LooksLikeRadiance(std::span<const std::byte> bytes) {
+  const std::string_view start(reinterpret_cast<const char*>(bytes.data()), std::min<std::size_t>(bytes.size(), 10));
+  return start.starts_with("#?RADIANCE") || start.starts_with("#?RGBE");
+}
+
+Image DecodeRadiance(std::span<const std::byte> bytes, const std::string& name) {
+  Reader reader(bytes, name);
+  reader.Line();
+  for (std::string_view line = reader.Line(); !line.empty(); line = reader.Line()) {
+    if (line.starts_with("FORMAT=") && line != "FORMAT=32-bit_rle_rgbe") {
+      throw Error(ErrorCode::Unsupported, "a Radiance picture with " + std::string(line.substr(0, 60)), name,
+                  "convert it to 32-bit_rle_rgbe");
+    }
+  }
+  const Resolution size = ParseResolution(reader.Line(), reader, name);
+  CheckImageSize(size.width, size.height, name);
+  // The shortest row has 4 bytes: refuse a size that the file cannot hold before asking for its memory.
+  if (reader.Left() / 4 < size.height) reader.Fail("the file is cut off");
+
+  Image image;
+  image.width = static_cast<int>(size.width);
+  image.height = static_cast<int>(size.height);
+  image.channels = 3;
+  image.type = ChannelType::F32;
+  image.encoding = Encoding::Linear;
+  image.bytes = AllocatePixels(image.PixelCount() * 3 * sizeof(float), name);
+  std::array<float, 256> scale{};  // exponent 0 is black
+  for (int e = 1; e < 256; ++e) scale[static_cast<std::size_t>(e)] = std::ldexp(1.0f, e - 136);
+
+  std::vector<Rgbe> row(size.width);
+  std::vector<std::uint8_t> plane(size.width);
+  for (std::size_t y = 0; y < size.height; ++y) {
+    ReadRow(reader, row, plane);
+    float* to = image.As<float>() + 3 * size.width * (size.bottom_up ? size.height - 1 - y : y);
+    for (std::size_t x = 0; x < size.width; ++x) {
+      const Rgbe& pixel = row[size.right_to_left ? size.width - 1 - x : x];
+      const float unit = scale[pixel[3]];
+      for (std::size_t c = 0; c < 3; ++c) to[3 * x + c] = static_cast<float>(pixel[c]) * unit;
+    }
+  }
+  return image;
+}
+
+}  // namespace facet

@@ -1,0 +1,20 @@
+// Radiance pictures (.hdr, .pic).
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+
+#include "facet/image.h"
+
+namespace facet {
+
+bool LooksLikeRadiance(std::span<const std::byte> bytes);
+
+// See DecodeImage: F32, 3 channels, linear. RGBE in any of the three packings (flat, old and new run lengths), rows in
+// either direction; XYZE and pictures stored by columns are Unsupported. A number is mantissa * 2^(exponent - 136),
+// exactly; EXPOSURE lines are ignored, as every other reader does.
+// Source: Ward, "Real Pixels", Graphics Gems II, 1991; and the format's description in the Radiance file formats paper.
+Image DecodeRadiance(std::span<const std::byte> bytes, const std::string& name);
+
+}  // namespace facet

@@ -1,0 +1,85 @@
+// Reading an EnvironmentMap. Directions are in the environment's own axes; see lighting-inl.h for the frame's.
+
+#if defined(FACET_LIGHT_ENVIRONMENT_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef FACET_LIGHT_ENVIRONMENT_INL_H_
+#undef FACET_LIGHT_ENVIRONMENT_INL_H_
+#else
+#define FACET_LIGHT_ENVIRONMENT_INL_H_
+#endif
+
+#include "facet/shader/elementary-inl.h"
+#include "light/environment.h"
+#include "light/octahedron-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace facet {
+namespace HWY_NAMESPACE {
+
+// Radiance reflected along `direction` by a surface of that roughness; linear between the two nearest levels.
+template <class T>
+HWY_INLINE Vec3<T> PrefilteredRadiance(const EnvironmentMap& map, Vec3<T> direction, T perceptual_roughness) {
+  const float last = static_cast<float>(EnvironmentMap::kLevels - 1);
+  const TablePosition<T> at = PositionInTable(perceptual_roughness * T(last), last);
+  const Vec2<T> uv = OctahedronFromDirection(direction);
+  const auto level = [&](IndexOf<T> k) HWY_ATTR {
+    return SampleOctahedron<T>(map.texel_data, Fetch<T>(map.level_size, k), FetchIndex(map.level_stride, k),
+                               FetchIndex(map.level_offset, k), uv);
+  };
+  return Mix(level(at.index), level(at.index + IndexOf<T>(1)), at.fraction);
+}
+
+// Irradiance on a surface facing `normal`, divided by pi.
+template <class T>
+HWY_INLINE Vec3<T> IrradianceOverPi(const EnvironmentMap& map, Vec3<T> normal) {
+  const std::int32_t size = map.irradiance.size;
+  const std::int32_t origin = map.irradiance.offset + (size + 3) * 4;
+  return SampleOctahedron<T>(map.texel_data, T(static_cast<float>(size)), IndexOf<T>(size + 2), IndexOf<T>(origin),
+                             OctahedronFromDirection(normal));
+}
+
+// Bilinear reading of an equirectangular picture of 4-float pixels in a direction (any length but zero).
+template <class T>
+HWY_INLINE Vec3<T> SampleEquirectangular(const float* picture, std::int32_t width, std::int32_t height,
+                                         Vec3<T> direction) {
+  const T length = Sqrt(Dot(direction, direction));
+  const T y_unit = Clamp(direction.y / Max(length, T(1e-30f)), T(-1.0f), T(1.0f));
+  const T w = T(static_cast<float>(width));
+  const T h = T(static_cast<float>(height));
+  const T u = T(0.5f) + Atan2(direction.z, direction.x) * T(0.159154943091895336f);
+  const T v = Acos(y_unit) * T(0.318309886183790672f);
+  const T x = Clamp(u * w - T(0.5f), T(-0.5f), w);
+  const T y = Clamp(v * h - T(0.5f), T(0.0f), h - T(1.0f));
+  const T x_floor = Floor(x);
+  const T y0 = Min(Floor(y), h - T(2.0f));  // pictures have at least two rows
+  const T fx = x - x_floor;
+  const T fy = y - y0;
+  const T x0 = Select(x_floor < T(0.0f), w - T(1.0f), Select(x_floor >= w, x_floor - w, x_floor));
+  const T x_next = x0 + T(1.0f);
+  const T x1 = Select(x_next >= w, T(0.0f), x_next);
+  const IndexOf<T> four = 4;
+  const IndexOf<T> row = IndexOf<T>(width * 4);
+  const IndexOf<T> top = TruncateToIndex(y0) * row;
+  const IndexOf<T> i00 = top + TruncateToIndex(x0) * four;
+  const IndexOf<T> i10 = top + TruncateToIndex(x1) * four;
+  const auto channel = [&](int c) HWY_ATTR {
+    const T upper = Mix(Fetch<T>(picture + c, i00), Fetch<T>(picture + c, i10), fx);
+    const T lower = Mix(Fetch<T>(picture + c, i00 + row), Fetch<T>(picture + c, i10 + row), fx);
+    return Mix(upper, lower, fy);
+  };
+  return {channel(0), channel(1), channel(2)};
+}
+
+// What is seen in a direction: the picture where it was kept, else level 0.
+template <class T>
+HWY_INLINE Vec3<T> SharpRadiance(const EnvironmentMap& map, Vec3<T> direction) {
+  if (map.picture_data != nullptr) {
+    return SampleEquirectangular(map.picture_data, map.picture_width, map.picture_height, direction);
+  }
+  return PrefilteredRadiance(map, direction, T(0.0f));
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace facet
+HWY_AFTER_NAMESPACE();
+
+#endif

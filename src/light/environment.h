@@ -1,0 +1,70 @@
+// Light from all around, prepared for shading.
+//
+// Directions and pictures: an equirectangular picture's column u in [0, 1) and row v in [0, 1] (top row first) show the
+// direction with  u = 0.5 + atan2(z, x) / (2 pi),  v = acos(y) / pi  (world axes, +Y up). Its centre lies towards +X, its
+// left and right edges towards -X; +Z is at u = 0.75. Same as three.js's equirectUv.
+//
+// Maps are octahedral (Praun and Hoppe, 1999, Spherical Parametrization and Remeshing; Engelhardt and Dachsbacher, 2008,
+// Octahedron Environment Maps): a direction d is divided by |x| + |y| + |z|; its x and z are the square's coordinates,
+// and where y < 0 the corners are folded over. Each square has a border of one texel holding its neighbours across the
+// fold, so that a bilinear lookup is four plain reads.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "facet/image.h"
+
+namespace facet {
+
+struct EnvironmentMap {
+  static constexpr int kLevels = 9;
+  static constexpr int kIrradianceSize = 32;
+
+  // One octahedral square: texel (i, j) of [-1, size] stands at texels[offset + ((j + 1) * (size + 2) + i + 1) * 4].
+  struct Level {
+    std::int32_t size = 0;
+    std::int32_t offset = 0;
+  };
+
+  // Level k is the radiance that a mirror of perceptual roughness k / (kLevels - 1) shows: GGX-prefiltered with view and
+  // normal along the reflection (Karis, 2013, Real Shading in Unreal Engine 4). Level 0 is the picture itself.
+  Level levels[kLevels];
+  // For lanes: size and offset of each level, as they are gathered.
+  std::int32_t level_stride[kLevels] = {};
+  std::int32_t level_offset[kLevels] = {};  // of texel (0, 0)
+  float level_size[kLevels] = {};
+  // Irradiance divided by pi: the mean of radiance, weighted by the cosine.
+  Level irradiance;
+
+  std::vector<float> texels;        // RGB and one unused number
+  // The picture itself, RGB and one unused number, for a sharp background; empty unless asked for.
+  std::vector<float> picture;
+  std::int32_t picture_width = 0, picture_height = 0;
+
+  // Numbers of the input that were not finite, negative or absurdly large (see ToLinearRgb32F).
+  std::size_t repaired_values = 0;
+
+  // As kernels read it; into the vectors above.
+  const float* texel_data = nullptr;
+  const float* picture_data = nullptr;
+
+  EnvironmentMap() = default;
+  EnvironmentMap(const EnvironmentMap&) = delete;
+  EnvironmentMap& operator=(const EnvironmentMap&) = delete;
+};
+
+struct EnvironmentOptions {
+  bool keep_picture = false;  // for Background()
+  int max_size = 1024;        // of level 0, a power of two; the default suits pictures of 2048 x 1024 and more
+};
+
+// Prepares an equirectangular picture (any type, encoding and channel count; alpha is ignored). Runs in parallel; the
+// same bits on every instruction set and thread count. Numbers that are not finite or negative count as 0. Throws
+// Error(InvalidInput) for an image that breaks its own rules.
+std::shared_ptr<const EnvironmentMap> PrefilterEnvironment(const Image& equirectangular,
+                                                           const EnvironmentOptions& options = {});
+
+}  // namespace facet

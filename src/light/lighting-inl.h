@@ -1,0 +1,119 @@
+// The light of a frame as the material closure reads it. T is Float (lanes), float or double.
+
+#if defined(FACET_LIGHT_LIGHTING_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef FACET_LIGHT_LIGHTING_INL_H_
+#undef FACET_LIGHT_LIGHTING_INL_H_
+#else
+#define FACET_LIGHT_LIGHTING_INL_H_
+#endif
+
+#include "light/environment-inl.h"
+#include "light/lighting.h"
+#include "material/closure-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace facet {
+namespace HWY_NAMESPACE {
+
+// KHR_lights_punctual at `position`, relative to the eye, world axes.
+template <class T>
+HWY_INLINE LightSample<T> SamplePunctual(const PunctualLight& light, Vec3<T> position) {
+  const Vec3<T> radiant = {T(light.radiant[0]), T(light.radiant[1]), T(light.radiant[2])};
+  const Vec3<T> shines = {T(light.direction[0]), T(light.direction[1]), T(light.direction[2])};
+  if (light.type == LightType::Directional) return {-shines, radiant};
+  const Vec3<T> to_light = Vec3<T>{T(light.position_eye[0]), T(light.position_eye[1]), T(light.position_eye[2])} -
+                           position;
+  // Nearer than a millimetre the light would outshine any film: its illuminance stays what it is there.
+  const T distance2 = Max(Dot(to_light, to_light), T(1e-6f));
+  const Vec3<T> direction = to_light * (T(1.0f) / Sqrt(distance2));
+  const T relative2 = distance2 * T(light.inverse_range2);
+  const T window = Clamp(T(1.0f) - relative2 * relative2, T(0.0f), T(1.0f));
+  T attenuation = window / distance2;
+  if (light.type == LightType::Spot) {
+    const T cosine = -Dot(shines, direction);
+    const T angular = Clamp(cosine * T(light.spot_scale) + T(light.spot_offset), T(0.0f), T(1.0f));
+    attenuation *= angular * angular;
+  }
+  return {direction, radiant * attenuation};
+}
+
+// The row of a DfgTable.
+template <class T>
+HWY_INLINE TablePosition<T> DfgRow(T perceptual_roughness) {
+  const float last = static_cast<float>(DfgTable::kRows - 1);
+  const T root = Sqrt(Max(perceptual_roughness, T(0.0f)));
+  return PositionInTable((root - T(DfgTable::kFirstRow)) * T(last / (1.0f - DfgTable::kFirstRow)), last);
+}
+
+template <class T>
+HWY_INLINE SpecularAlbedo<T> LookupDfg(const DfgTable& table, T n_dot_v, T perceptual_roughness) {
+  const float last = static_cast<float>(DfgTable::kColumns - 1);
+  const TablePosition<T> row = DfgRow(perceptual_roughness);
+  const TablePosition<T> column = PositionInTable(Sqrt(Sqrt(Max(n_dot_v, T(0.0f)))) * T(last), last);
+  const IndexOf<T> index = (row.index * IndexOf<T>(DfgTable::kColumns) + column.index) * IndexOf<T>(2);
+  const auto read = [&](int c) HWY_ATTR {
+    const float* p = table.albedo + c;
+    const float* next = p + 2 * DfgTable::kColumns;
+    return Mix(Mix(Fetch<T>(p, index), Fetch<T>(p + 2, index), column.fraction),
+               Mix(Fetch<T>(next, index), Fetch<T>(next + 2, index), column.fraction), row.fraction);
+  };
+  return {read(0), read(1)};
+}
+
+template <class T>
+HWY_INLINE SpecularAlbedo<T> LookupDfgAverage(const DfgTable& table, T perceptual_roughness) {
+  const TablePosition<T> row = DfgRow(perceptual_roughness);
+  const IndexOf<T> index = row.index * IndexOf<T>(2);
+  const auto read = [&](int c) HWY_ATTR {
+    return Mix(Fetch<T>(table.average + c, index), Fetch<T>(table.average + c + 2, index), row.fraction);
+  };
+  return {read(0), read(1)};
+}
+
+// The Lighting that material/closure-inl.h asks for. Directions in world axes.
+template <class T>
+class LightingView {
+ public:
+  HWY_INLINE explicit LightingView(const LightingData& data) : data_(&data) {}
+
+  HWY_INLINE int LightCount() const { return data_->light_count; }
+  HWY_INLINE LightSample<T> Sample(int light, Vec3<T> position) const {
+    return SamplePunctual(data_->lights[light], position);
+  }
+  HWY_INLINE bool HasEnvironment() const { return data_->environment != nullptr; }
+  HWY_INLINE Vec3<T> IrradianceOverPi(Vec3<T> normal) const {
+    return HWY_NAMESPACE::IrradianceOverPi(*data_->environment, ToEnvironment(normal)) *
+           T(data_->environment_intensity);
+  }
+  // Irradiance on a surface facing `normal`.
+  HWY_INLINE Vec3<T> Irradiance(Vec3<T> normal) const { return IrradianceOverPi(normal) * T(kPi); }
+  HWY_INLINE Vec3<T> Prefiltered(Vec3<T> direction, T perceptual_roughness) const {
+    return PrefilteredRadiance(*data_->environment, ToEnvironment(direction), perceptual_roughness) *
+           T(data_->environment_intensity);
+  }
+  // The environment itself, sharp where it was prepared with keep_picture.
+  HWY_INLINE Vec3<T> Background(Vec3<T> direction) const {
+    return SharpRadiance(*data_->environment, ToEnvironment(direction)) * T(data_->environment_intensity);
+  }
+  HWY_INLINE SpecularAlbedo<T> Dfg(T n_dot_v, T perceptual_roughness) const {
+    return LookupDfg(*data_->dfg, n_dot_v, perceptual_roughness);
+  }
+  HWY_INLINE SpecularAlbedo<T> DfgAverage(T perceptual_roughness) const {
+    return LookupDfgAverage(*data_->dfg, perceptual_roughness);
+  }
+
+ private:
+  HWY_INLINE Vec3<T> ToEnvironment(Vec3<T> d) const {
+    const float* m = data_->environment_from_world;
+    return {T(m[0]) * d.x + T(m[1]) * d.y + T(m[2]) * d.z, T(m[3]) * d.x + T(m[4]) * d.y + T(m[5]) * d.z,
+            T(m[6]) * d.x + T(m[7]) * d.y + T(m[8]) * d.z};
+  }
+
+  const LightingData* data_;
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace facet
+HWY_AFTER_NAMESPACE();
+
+#endif

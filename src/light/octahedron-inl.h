@@ -1,0 +1,71 @@
+// Octahedral maps: directions to squares and back, and bilinear reading. See environment.h for the layout.
+
+#if defined(FACET_LIGHT_OCTAHEDRON_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef FACET_LIGHT_OCTAHEDRON_INL_H_
+#undef FACET_LIGHT_OCTAHEDRON_INL_H_
+#else
+#define FACET_LIGHT_OCTAHEDRON_INL_H_
+#endif
+
+#include "light/lookup-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace facet {
+namespace HWY_NAMESPACE {
+
+// Any direction but zero, of any length, to [0, 1]^2. Zero goes to the centre.
+template <class T>
+HWY_INLINE Vec2<T> OctahedronFromDirection(Vec3<T> d) {
+  const T norm = Abs(d.x) + Abs(d.y) + Abs(d.z);
+  const T scale = T(1.0f) / Max(norm, T(1e-30f));
+  const T x = d.x * scale;
+  const T z = d.z * scale;
+  const auto below = d.y < T(0.0f);
+  const T folded_x = CopySign(T(1.0f) - Abs(z), d.x);
+  const T folded_z = CopySign(T(1.0f) - Abs(x), d.z);
+  return {Select(below, folded_x, x) * T(0.5f) + T(0.5f), Select(below, folded_z, z) * T(0.5f) + T(0.5f)};
+}
+
+// The inverse: unit.
+template <class T>
+HWY_INLINE Vec3<T> DirectionFromOctahedron(Vec2<T> uv) {
+  const T x = uv.x * T(2.0f) - T(1.0f);
+  const T z = uv.y * T(2.0f) - T(1.0f);
+  const T y = T(1.0f) - Abs(x) - Abs(z);
+  const auto below = y < T(0.0f);
+  const Vec3<T> d = {Select(below, CopySign(T(1.0f) - Abs(z), x), x), y,
+                     Select(below, CopySign(T(1.0f) - Abs(x), z), z)};
+  return d * (T(1.0f) / Sqrt(Dot(d, d)));
+}
+
+// Bilinear between the four texels around uv in [0, 1]^2. `size`, `stride` (texels a row) and `origin` (of texel (0, 0),
+// in floats) may differ between lanes.
+template <class T>
+HWY_INLINE Vec3<T> SampleOctahedron(const float* texels, T size, IndexOf<T> stride, IndexOf<T> origin, Vec2<T> uv) {
+  // Texel centres lie at (i + 0.5) / size; x and y are in [-0.5, size - 0.5], their floors in [-1, size - 1].
+  const T x = Clamp(uv.x * size - T(0.5f), T(-0.5f), size - T(0.5f));
+  const T y = Clamp(uv.y * size - T(0.5f), T(-0.5f), size - T(0.5f));
+  const T x0 = Floor(x);
+  const T y0 = Floor(y);
+  const T fx = x - x0;
+  const T fy = y - y0;
+  const IndexOf<T> four = 4;
+  const IndexOf<T> row = stride * four;
+  const IndexOf<T> i00 = origin + TruncateToIndex(y0) * row + TruncateToIndex(x0) * four;
+  const IndexOf<T> i01 = i00 + row;
+  const T w00 = (T(1.0f) - fx) * (T(1.0f) - fy);
+  const T w10 = fx * (T(1.0f) - fy);
+  const T w01 = (T(1.0f) - fx) * fy;
+  const T w11 = fx * fy;
+  const auto channel = [&](int c) HWY_ATTR {
+    return (Fetch<T>(texels + c, i00) * w00 + Fetch<T>(texels + c + 4, i00) * w10) +
+           (Fetch<T>(texels + c, i01) * w01 + Fetch<T>(texels + c + 4, i01) * w11);
+  };
+  return {channel(0), channel(1), channel(2)};
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace facet
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,45 @@
+#include "light/punctual.h"
+
+#include <algorithm>
+
+#include "math/elementary.h"
+
+namespace facet {
+namespace {
+
+void Copy(glm::dvec3 from, float* to) {
+  for (int i = 0; i < 3; ++i) to[i] = static_cast<float>(from[i]);
+}
+
+}  // namespace
+
+std::vector<PunctualLight> MakePunctualLights(const std::vector<PosedLight>& lights, glm::dvec3 eye_world) {
+  std::vector<PunctualLight> result;
+  result.reserve(lights.size());
+  for (const PosedLight& posed : lights) {
+    const Light& light = *posed.light;
+    const glm::dvec3 radiant = glm::dvec3(light.color) * double(light.intensity);
+    const bool shines = radiant.x > 0.0 || radiant.y > 0.0 || radiant.z > 0.0;
+    if (!shines || !(light.range > 0.0f)) continue;
+    PunctualLight p;
+    p.type = light.type;
+    Copy(posed.position_world - eye_world, p.position_eye);
+    Copy(posed.direction_world, p.direction);
+    Copy(radiant, p.radiant);
+    if (light.type != LightType::Directional) {
+      const double r2 = double(light.range) * double(light.range);
+      p.inverse_range2 = static_cast<float>(std::min(1.0 / r2, 1e30));  // 0 for an infinite range
+    }
+    if (light.type == LightType::Spot) {
+      // KHR_lights_punctual, "Inner and Outer Cone Angles", the implementation that it recommends.
+      const double cos_outer = Cos(double(light.outer_cone_angle));
+      const double scale = 1.0 / std::max(0.001, Cos(double(light.inner_cone_angle)) - cos_outer);
+      p.spot_scale = static_cast<float>(scale);
+      p.spot_offset = static_cast<float>(-cos_outer * scale);
+    }
+    result.push_back(p);
+  }
+  return result;
+}
+
+}  // namespace facet

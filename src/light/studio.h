@@ -1,0 +1,19 @@
+// The studio that lights a scene when no environment is given.
+#pragma once
+
+#include <memory>
+
+#include "facet/image.h"
+#include "light/environment.h"
+
+namespace facet {
+
+// A neutral photographer's studio: a grey room, brighter above, with a large soft box overhead, a key light to the front
+// left, a fill to the right and two strips behind for edges. No file is needed. Linear RGB, F32, equirectangular,
+// mean radiance over the sphere 1 (so that a white surface comes out white at exposure 0). `width` is twice `height`.
+Image StudioPicture(int width, int height);
+
+// The same, prepared; made once per process and value of `keep_picture`. Thread-safe.
+std::shared_ptr<const EnvironmentMap> StudioEnvironment(bool keep_picture = false);
+
+}  // namespace facet

@@ -1,0 +1,240 @@
+#include "raster/raster_tile.h"
+
+#include <algorithm>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "raster/raster_tile.cc"
+#include "hwy/foreach_target.h"
+// Must come after foreach_target.h.
+#include "facet/shader/dispatch.h"
+#include "facet/shader/lane-inl.h"
+
+#ifndef FACET_RASTER_EDGES_H_
+#define FACET_RASTER_EDGES_H_
+namespace facet {
+
+// A triangle's three edge functions on the grid of sample positions of one block: a * x + b * y + c >= 0 inside, x and y
+// in sixteenths of a pixel from the block's corner. Exact.
+struct BlockEdges {
+  std::int32_t a[3], b[3], c[3];
+};
+
+// The edges over a whole triangle, in 1/256 pixel.
+struct TriangleEdges {
+  std::int64_t a[3], b[3], c[3];  // a * x + b * y + c, x and y in fx8 from the picture's origin; fill rule included
+
+  explicit TriangleEdges(const TriangleRecord& r) {
+    for (int i = 0; i < 3; ++i) {
+      const int j = i == 2 ? 0 : i + 1;
+      a[i] = r.y_fx8[i] - r.y_fx8[j];
+      b[i] = r.x_fx8[j] - r.x_fx8[i];
+      c[i] = -(a[i] * r.x_fx8[i] + b[i] * r.y_fx8[i]);
+      // The fill rule: a sample on an edge belongs to the triangle if the edge is a left one (inside lies towards +x) or
+      // a top one (horizontal, inside below). For integers, e > 0 is e - 1 >= 0.
+      const bool left_or_top = a[i] > 0 || (a[i] == 0 && b[i] > 0);
+      if (!left_or_top) c[i] -= 1;
+    }
+  }
+
+  // False when the block lies outside one edge. An edge that the whole block is inside of becomes 0 >= 0.
+  bool InBlock(int x_px, int y_px, BlockEdges& out) const {
+    constexpr std::int64_t kReach = kBlockSize * kSampleGrid - 1;
+    for (int i = 0; i < 3; ++i) {
+      // Divided by 16, rounding down: a and b multiply whole sixteenths of a pixel, that is multiples of 16 fx8.
+      const std::int64_t corner =
+          (a[i] * (std::int64_t{x_px} << kSubpixelBits) + b[i] * (std::int64_t{y_px} << kSubpixelBits) + c[i]) >> 4;
+      const std::int64_t low = corner + std::min<std::int64_t>(a[i], 0) * kReach + std::min<std::int64_t>(b[i], 0) * kReach;
+      const std::int64_t high = corner + std::max<std::int64_t>(a[i], 0) * kReach + std::max<std::int64_t>(b[i], 0) * kReach;
+      if (high < 0) return false;
+      const bool inside = low >= 0;
+      out.a[i] = inside ? 0 : static_cast<std::int32_t>(a[i]);
+      out.b[i] = inside ? 0 : static_cast<std::int32_t>(b[i]);
+      out.c[i] = inside ? 0 : static_cast<std::int32_t>(corner);
+    }
+    return true;
+  }
+};
+static_assert(kSubpixelScale / kSampleGrid == 16, "the shift in InBlock");
+
+// The part of a triangle's bounding box that lies in the tile, in blocks and rows of it.
+struct BlockRange {
+  int x0, y0, x1, y1;        // blocks within the tile, inclusive
+  int first_row, last_row;   // pixels within the tile
+
+  BlockRange(const TriangleRecord& r, const TileBuffers& tile) {
+    const auto [min_x, max_x] = std::minmax({r.x_fx8[0], r.x_fx8[1], r.x_fx8[2]});
+    const auto [min_y, max_y] = std::minmax({r.y_fx8[0], r.y_fx8[1], r.y_fx8[2]});
+    const int last_column_px = std::min((max_x >> kSubpixelBits) - tile.x0, tile.width - 1);
+    const int first_column_px = std::max((min_x >> kSubpixelBits) - tile.x0, 0);
+    first_row = std::max((min_y >> kSubpixelBits) - tile.y0, 0);
+    last_row = std::min((max_y >> kSubpixelBits) - tile.y0, tile.height - 1);
+    x0 = first_column_px / kBlockSize, y0 = first_row / kBlockSize;
+    x1 = last_column_px < 0 ? -1 : last_column_px / kBlockSize;
+    y1 = last_row < 0 ? -1 : last_row / kBlockSize;
+  }
+};
+
+// Positions of a block's pixels in sixteenths, in the order of TileBuffers.
+struct BlockPixels {
+  alignas(64) std::int32_t x[kBlockPixels];
+  alignas(64) std::int32_t y[kBlockPixels];
+  constexpr BlockPixels() : x{}, y{} {
+    for (int i = 0; i < kBlockPixels; ++i) {
+      x[i] = i % kBlockSize * kSampleGrid;
+      y[i] = i / kBlockSize * kSampleGrid;
+    }
+  }
+};
+inline constexpr BlockPixels kBlockPixelPositions;
+
+}  // namespace facet
+#endif  // FACET_RASTER_EDGES_H_
+
+HWY_BEFORE_NAMESPACE();
+namespace facet {
+namespace HWY_NAMESPACE {
+
+// Calls visit(offset, first_pixel, sample, covered_and_nearer, depth) for each group of lanes of each sample of each
+// block that the triangle touches: `offset` is the group's place in the tile's buffers. visit_group(first_pixel) comes
+// after all samples of a group.
+template <class Visit, class EndGroup>
+HWY_INLINE void VisitCoverage(const TriangleRecord& r, const TileBuffers& tile, const Visit& visit,
+                              const EndGroup& end_group) {
+  const SamplePosition* pattern = SamplePattern(tile.samples);
+  const TriangleEdges edges(r);
+  const BlockRange range(r, tile);
+  const int lanes = static_cast<int>(LaneCount());
+  const int group = lanes < kBlockPixels ? lanes : kBlockPixels;
+  for (int by = range.y0; by <= range.y1; ++by) {
+    for (int bx = range.x0; bx <= range.x1; ++bx) {
+      const int x_px = tile.x0 + bx * kBlockSize, y_px = tile.y0 + by * kBlockSize;
+      BlockEdges e;
+      if (!edges.InBlock(x_px, y_px, e)) continue;
+      const BlockDepth d = MakeBlockDepth(r, x_px, y_px);
+      const std::size_t block = tile.BlockOffset(bx, by);
+      const int first = std::max(range.first_row - by * kBlockSize, 0) * kBlockSize;
+      const int last = std::min(range.last_row - by * kBlockSize, kBlockSize - 1) * kBlockSize + kBlockSize - 1;
+      for (int i = first / group * group; i <= last; i += group) {
+        const Int px = LoadInt(kBlockPixelPositions.x + i), py = LoadInt(kBlockPixelPositions.y + i);
+        const Int e0 = Int(e.a[0]) * px + Int(e.b[0]) * py + Int(e.c[0]);
+        const Int e1 = Int(e.a[1]) * px + Int(e.b[1]) * py + Int(e.c[1]);
+        const Int e2 = Int(e.a[2]) * px + Int(e.b[2]) * py + Int(e.c[2]);
+        for (int s = 0; s < tile.samples; ++s) {
+          const int sx = pattern[s].x, sy = pattern[s].y;
+          const Int inside = (e0 + Int(e.a[0] * sx + e.b[0] * sy)) | (e1 + Int(e.a[1] * sx + e.b[1] * sy)) |
+                             (e2 + Int(e.a[2] * sx + e.b[2] * sy));
+          const Mask covered = !(inside < Int(0));
+          if (!Any(covered)) continue;
+          const Float x = ToFloat(px + Int(sx)) * Float(1.0f / kSampleGrid);
+          const Float y = ToFloat(py + Int(sy)) * Float(1.0f / kSampleGrid);
+          const Float z = (Float(d.c) + Float(d.dx) * x) + Float(d.dy) * y;
+          const Float depth = Min(Max(z, Float(d.low)), Float(d.high));
+          const std::size_t offset = block + std::size_t(s * kBlockPixels + i);
+          const Mask nearer = covered & (depth > LoadFloat(tile.depth.data() + offset));
+          if (Any(nearer)) visit(offset, s, nearer, depth);
+        }
+        end_group(bx * kBlockSize, by * kBlockSize, i);
+      }
+    }
+  }
+}
+
+void RasterOpaqueKernel(const TileTriangles& triangles, TileBuffers& tile) {
+  for (std::size_t t = 0; t < triangles.count; ++t) {
+    const Int number(triangles.numbers[t]);
+    VisitCoverage(
+        *triangles.records[t], tile,
+        [&](std::size_t offset, int, Mask nearer, Float depth) HWY_ATTR {
+          float* depths = tile.depth.data() + offset;
+          std::int32_t* records = tile.record.data() + offset;
+          Store(Select(nearer, depth, LoadFloat(depths)), depths);
+          Store(Select(nearer, number, LoadInt(records)), records);
+        },
+        [](int, int, int) HWY_ATTR {});
+  }
+}
+
+void RasterCollectKernel(const TileTriangles& triangles, const TileBuffers& tile, FragmentList& out) {
+  for (std::size_t t = 0; t < triangles.count; ++t) {
+    std::uint32_t lanes_of[kMaxSamples] = {};
+    std::uint32_t any = 0;
+    VisitCoverage(
+        *triangles.records[t], tile,
+        [&](std::size_t, int s, Mask nearer, Float) HWY_ATTR { any |= lanes_of[s] = BitsOf(nearer); },
+        [&](int block_x, int block_y, int first) HWY_ATTR {
+          for (; any != 0; any &= any - 1) {
+            const int lane = __builtin_ctz(any);
+            const int x = block_x + (first + lane) % kBlockSize, y = block_y + (first + lane) / kBlockSize;
+            std::uint32_t samples = 0;
+            for (int s = 0; s < tile.samples; ++s) samples |= (lanes_of[s] >> lane & 1u) << s;
+            if (x < tile.width && y < tile.height) {
+              out.Push(static_cast<std::uint16_t>(y * tile.tile_size + x), triangles.numbers[t],
+                       static_cast<std::uint8_t>(samples));
+            }
+          }
+          for (std::uint32_t& bits : lanes_of) bits = 0;
+        });
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace facet
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace facet {
+
+FACET_EXPORT(RasterOpaqueKernel);
+FACET_EXPORT(RasterCollectKernel);
+
+void ClearTile(TileBuffers& tile) {
+  const std::size_t size = std::size_t(tile.tile_size) * std::size_t(tile.tile_size) * std::size_t(tile.samples);
+  tile.depth.assign(size, -std::numeric_limits<float>::infinity());
+  tile.record.assign(size, kNoRecord);
+}
+
+void RasterOpaque(const TileTriangles& triangles, TileBuffers& tile) {
+  FACET_DISPATCH(RasterOpaqueKernel)(triangles, tile);
+}
+
+void RasterCollect(const TileTriangles& triangles, const TileBuffers& tile, FragmentList& out) {
+  FACET_DISPATCH(RasterCollectKernel)(triangles, tile, out);
+}
+
+void WriteFragment(const TriangleRecord& record, std::int32_t number, std::uint16_t pixel, std::uint8_t samples,
+                   TileBuffers& tile) {
+  const int x = pixel % tile.tile_size, y = pixel / tile.tile_size;
+  const int block_x = x / kBlockSize * kBlockSize, block_y = y / kBlockSize * kBlockSize;
+  const BlockDepth d = MakeBlockDepth(record, tile.x0 + block_x, tile.y0 + block_y);
+  const SamplePosition* pattern = SamplePattern(tile.samples);
+  for (int s = 0; s < tile.samples; ++s) {
+    if ((samples >> s & 1) == 0) continue;
+    const float depth = DepthAt(d, static_cast<float>((x - block_x) * kSampleGrid + pattern[s].x) / kSampleGrid,
+                                static_cast<float>((y - block_y) * kSampleGrid + pattern[s].y) / kSampleGrid);
+    const std::size_t i = tile.Index(x, y, s);
+    if (depth > tile.depth[i]) tile.depth[i] = depth, tile.record[i] = number;
+  }
+}
+
+void VisibleFragments(const TileBuffers& tile, FragmentList& out) {
+  for (int y = 0; y < tile.height; ++y) {
+    for (int x = 0; x < tile.width; ++x) {
+      const std::int32_t* records = tile.record.data() + tile.Index(x, y, 0);
+      std::uint32_t open = (1u << tile.samples) - 1;
+      for (int s = 0; open != 0; ++s) {
+        if ((open >> s & 1) == 0) continue;
+        const std::int32_t number = records[s * kBlockPixels];
+        std::uint32_t same = 0;
+        for (int k = s; k < tile.samples; ++k) same |= std::uint32_t{records[k * kBlockPixels] == number} << k;
+        same &= open;
+        open &= ~same;
+        if (number != kNoRecord) {
+          out.Push(static_cast<std::uint16_t>(y * tile.tile_size + x), number, static_cast<std::uint8_t>(same));
+        }
+      }
+    }
+  }
+}
+
+}  // namespace facet
+#endif

@@ -1,0 +1,35 @@
+// Coverage and depth: which triangle is seen at each sample of a tile.
+#pragma once
+
+#include <cstdint>
+
+#include "frame/tile.h"
+
+namespace facet {
+
+// Triangles of one tile, in submission order.
+struct TileTriangles {
+  const TriangleRecord* const* records = nullptr;
+  const std::int32_t* numbers = nullptr;  // frame-wide record numbers
+  std::size_t count = 0;
+};
+
+// Empties the tile: nothing visible.
+void ClearTile(TileBuffers& tile);
+
+// Draws opaque triangles: where a sample is covered and nearer than what is there, depth and record are replaced. At
+// equal depth the earlier triangle stays.
+void RasterOpaque(const TileTriangles& triangles, TileBuffers& tile);
+
+// Collects the fragments of triangles that are nearer than what is in the tile, which stays as it is. In triangle order.
+void RasterCollect(const TileTriangles& triangles, const TileBuffers& tile, FragmentList& out);
+
+// Writes one collected fragment into the tile, sample by sample, where it still is the nearest. For alpha-tested
+// fragments that passed.
+void WriteFragment(const TriangleRecord& record, std::int32_t number, std::uint16_t pixel, std::uint8_t samples,
+                   TileBuffers& tile);
+
+// The visible (pixel, triangle) pairs, row by row, with the samples at which each is visible.
+void VisibleFragments(const TileBuffers& tile, FragmentList& out);
+
+}  // namespace facet

@@ -1,0 +1,110 @@
+#include "render/geometry_pass.h"
+
+#include <algorithm>
+
+#include "base/parallel.h"
+#include "bin/bin_triangles.h"
+#include "clip/assemble.h"
+#include "facet/error.h"
+#include "render/frame_view.h"
+#include "vertex/transform_vertices.h"
+
+namespace facet {
+namespace {
+
+constexpr std::uint32_t kChunkPrimitives = 4096;
+constexpr std::size_t kVertexGrain = 8192;
+
+struct VertexRange {
+  std::uint32_t drawable;
+  std::size_t begin, end;
+};
+
+}  // namespace
+
+const TriangleRecord& FrameGeometry::Record(std::int32_t number) const {
+  const auto n = static_cast<std::uint32_t>(number);
+  const auto after = std::upper_bound(chunks.begin(), chunks.end(), n,
+                                      [](std::uint32_t k, const TriangleChunk& c) { return k < c.record_base; });
+  const TriangleChunk& chunk = *std::prev(after);
+  return chunk.records[n - chunk.record_base];
+}
+
+FrameGeometry RunGeometry(const FrameView& view, const PosedScene& posed, const FramePlan& plan, const TileGrid& grid,
+                          int samples, RenderStats& stats) {
+  FrameGeometry frame;
+  std::vector<VertexRange> ranges;
+  std::uint64_t vertex_count = 0;
+  frame.drawables.reserve(posed.drawables.size());
+  for (std::size_t d = 0; d < posed.drawables.size(); ++d) {
+    FrameDrawable drawable = MakeFrameDrawable(view, posed.drawables[d]);
+    drawable.material = plan.material_of_drawable[d];
+    drawable.double_sided = plan.materials[std::size_t(drawable.material)].frame.Has(kDoubleSided);
+    drawable.vertex_base = static_cast<std::uint32_t>(vertex_count);
+    const std::size_t n = drawable.geometry->positions.size();
+    for (std::size_t b = 0; b < n; b += kVertexGrain) {
+      ranges.push_back({static_cast<std::uint32_t>(d), b, std::min(n, b + kVertexGrain)});
+    }
+    for (std::uint32_t b = 0; b < drawable.primitive_count; b += kChunkPrimitives) {
+      TriangleChunk& chunk = frame.chunks.emplace_back();
+      chunk.drawable = static_cast<std::uint32_t>(d);
+      chunk.first_primitive = b;
+      chunk.primitive_count = std::min(kChunkPrimitives, drawable.primitive_count - b);
+    }
+    vertex_count += n;
+    stats.triangles_in += drawable.primitive_count;
+    frame.drawables.push_back(drawable);
+  }
+  stats.drawables = frame.drawables.size();
+  stats.vertices = vertex_count;
+  if (vertex_count > UINT32_MAX) {
+    throw Error(ErrorCode::OutOfMemory, "the scene has more than 2^32 vertices at once", {}, "render it in parts");
+  }
+
+  VertexBuffer vertices;
+  vertices.x_fx8.resize(vertex_count);
+  vertices.y_fx8.resize(vertex_count);
+  vertices.depth.resize(vertex_count);
+  vertices.outcode.resize(vertex_count);
+  ParallelFor(ranges.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      TransformVertices(view, frame.drawables[ranges[i].drawable], ranges[i].begin, ranges[i].end, vertices);
+    }
+  });
+  ParallelFor(frame.chunks.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      TriangleChunk& chunk = frame.chunks[i];
+      AssembleChunk(view, frame.drawables[chunk.drawable], vertices, samples, chunk);
+      BinChunk(grid, chunk);
+    }
+  });
+
+  frame.material_visible.assign(plan.materials.size(), false);
+  for (auto* lists : {&frame.lists.opaque, &frame.lists.masked, &frame.lists.blended}) {
+    lists->resize(std::size_t(grid.Count()));
+  }
+  std::uint64_t record_count = 0;
+  for (std::size_t i = 0; i < frame.chunks.size(); ++i) {
+    TriangleChunk& chunk = frame.chunks[i];
+    chunk.record_base = static_cast<std::uint32_t>(record_count);
+    record_count += chunk.records.size();
+    stats.triangles_culled += chunk.culled;
+    stats.triangles_clipped += chunk.clipped;
+    const std::size_t material = std::size_t(frame.drawables[chunk.drawable].material);
+    const AlphaMode mode = plan.materials[material].frame.alpha_mode;
+    auto& lists = mode == AlphaMode::Opaque ? frame.lists.opaque
+                  : mode == AlphaMode::Mask ? frame.lists.masked
+                                            : frame.lists.blended;
+    for (std::size_t t = 0; t < chunk.tiles.size(); ++t) {
+      lists[chunk.tiles[t]].push_back({static_cast<std::uint32_t>(i), chunk.begin[t], chunk.begin[t + 1]});
+    }
+    if (!chunk.tiles.empty()) frame.material_visible[material] = true;
+  }
+  stats.triangles_binned = record_count;
+  if (record_count > INT32_MAX) {
+    throw Error(ErrorCode::OutOfMemory, "the scene has more than 2^31 triangles on the screen", {}, "render it in parts");
+  }
+  return frame;
+}
+
+}  // namespace facet

@@ -1,0 +1,26 @@
+// From posed drawables to tile lists: the vertex, clip and bin stages over all of them.
+#pragma once
+
+#include <vector>
+
+#include "facet/render.h"
+#include "frame/geometry.h"
+#include "frame/tile_grid.h"
+#include "plan/frame_plan.h"
+#include "scene/pose.h"
+
+namespace facet {
+
+struct FrameGeometry {
+  std::vector<FrameDrawable> drawables;
+  std::vector<TriangleChunk> chunks;
+  TileLists lists;
+  std::vector<bool> material_visible;  // of FramePlan::materials: some triangle of it reached a tile
+
+  const TriangleRecord& Record(std::int32_t number) const;
+};
+
+FrameGeometry RunGeometry(const FrameView& view, const PosedScene& posed, const FramePlan& plan, const TileGrid& grid,
+                          int samples, RenderStats& stats);
+
+}  // namespace facet

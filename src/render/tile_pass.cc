@@ -1,0 +1,336 @@
+#include "render/tile_pass.h"
+
+#include <algorithm>
+#include <atomic>
+#include <memory>
+#include <mutex>
+
+#include "base/parallel.h"
+#include "blend/composite.h"
+#include "facet/shader.h"
+#include "raster/raster_tile.h"
+#include "render/frame_view.h"
+#include "resolve/resolve_tile.h"
+#include "shade/shade_fragments.h"
+#include "shade/triangle_setup.h"
+
+namespace facet {
+namespace {
+
+struct TileCounts {
+  std::uint64_t shaded = 0, blended = 0, covered = 0, non_finite = 0;
+};
+
+// Where the fragments of a pixel are shaded, by which of its samples they cover: the pixel's centre when they cover all,
+// else the centroid of those they do, which lies within the triangle.
+class ShadingPositions {
+ public:
+  explicit ShadingPositions(int samples) {
+    const SamplePosition* pattern = SamplePattern(samples);
+    const unsigned all = (1u << samples) - 1;
+    for (unsigned mask = 1; mask <= all; ++mask) {
+      int x = 0, y = 0, n = 0;
+      for (int s = 0; s < samples; ++s) {
+        if (mask >> s & 1) x += pattern[s].x, y += pattern[s].y, ++n;
+      }
+      x_[mask] = mask == all ? 0.5f : static_cast<float>(x) / static_cast<float>(n * kSampleGrid);
+      y_[mask] = mask == all ? 0.5f : static_cast<float>(y) / static_cast<float>(n * kSampleGrid);
+    }
+  }
+  float X(std::uint8_t samples) const { return x_[samples]; }
+  float Y(std::uint8_t samples) const { return y_[samples]; }
+
+ private:
+  float x_[256] = {}, y_[256] = {};
+};
+
+// Everything a thread needs while it works on one tile; kept for the next.
+class TileWorker final : public RecordTable {
+ public:
+  TileWorker(const TilePassInput& input, const ShadingPositions& positions) : in_(input), positions_(positions) {}
+
+  void Run(int index, Film& film, TileCounts& counts) {
+    counts_ = &counts;
+    const int size = in_.grid.tile_size;
+    tile_.x0 = index % in_.grid.columns * size;
+    tile_.y0 = index / in_.grid.columns * size;
+    tile_.width = std::min(size, in_.grid.width - tile_.x0);
+    tile_.height = std::min(size, in_.grid.height - tile_.y0);
+    tile_.tile_size = size;
+    tile_.samples = in_.settings.samples;
+    setup_count_ = 0;
+    opaque_.list.Clear();
+    blended_.list.Clear();
+
+    const TileLists& lists = in_.geometry.lists;
+    const std::size_t t = std::size_t(index);
+    const bool nothing = lists.opaque[t].empty() && lists.masked[t].empty() && lists.blended[t].empty();
+    const std::vector<glm::vec4>* background = nullptr;
+    if (in_.plan.environment_background) {
+      FillBackground();
+      background = &background_;
+    }
+    if (nothing) {
+      pixels_.assign(std::size_t(size) * std::size_t(size), glm::vec4(0.0f));
+      if (background != nullptr) pixels_ = background_;
+    } else {
+      ClearTile(tile_);
+      Gather(lists.opaque[t]);
+      RasterOpaque(Triangles(), tile_);
+      if (!lists.masked[t].empty()) DrawMasked(lists.masked[t]);
+      VisibleFragments(tile_, opaque_.list);
+      Shade(opaque_);
+      counts.shaded += opaque_.list.Size();
+      ResolveOpaque(tile_, opaque_, background, pixels_);
+      if (!lists.blended[t].empty()) {
+        Gather(lists.blended[t]);
+        RasterCollect(Triangles(), tile_, blended_.list);
+        Shade(blended_);
+        counts.blended += blended_.list.Size();
+        CompositeBlended(tile_, opaque_, blended_, *this, background, pixels_);
+      }
+    }
+    for (int y = 0; y < tile_.height; ++y) {
+      const glm::vec4* row = pixels_.data() + std::size_t(y) * std::size_t(size);
+      for (int x = 0; x < tile_.width; ++x) counts.covered += row[x].a > 0.0f;
+      std::copy(row, row + tile_.width,
+                film.pixels.begin() + std::ptrdiff_t(tile_.y0 + y) * film.width + tile_.x0);
+    }
+  }
+
+  const TriangleRecord& Record(std::int32_t number) const override { return in_.geometry.Record(number); }
+
+ private:
+  TileTriangles Triangles() const { return {records_.data(), numbers_.data(), records_.size()}; }
+
+  void Gather(const std::vector<TileRun>& runs) {
+    records_.clear();
+    numbers_.clear();
+    for (const TileRun& run : runs) {
+      const TriangleChunk& chunk = in_.geometry.chunks[run.chunk];
+      for (std::uint32_t e = run.begin; e < run.end; ++e) {
+        records_.push_back(&chunk.records[chunk.entries[e]]);
+        numbers_.push_back(static_cast<std::int32_t>(chunk.record_base + chunk.entries[e]));
+      }
+    }
+  }
+
+  // Alpha-tested triangles, in batches: their fragments are collected against the depth so far, their alpha alone is
+  // shaded, and those that pass are written in order, each against the depth of that moment.
+  void DrawMasked(const std::vector<TileRun>& runs) {
+    constexpr std::size_t kBatch = 64;  // triangles
+    for (const TileRun& run : runs) {
+      const TriangleChunk& chunk = in_.geometry.chunks[run.chunk];
+      const int material = in_.geometry.drawables[chunk.drawable].material;
+      const FrameMaterial& m = in_.plan.materials[std::size_t(material)].frame;
+      for (std::uint32_t first = run.begin; first < run.end; first += kBatch) {
+        Gather({{run.chunk, first, std::min<std::uint32_t>(run.end, first + kBatch)}});
+        masked_.list.Clear();
+        RasterCollect(Triangles(), tile_, masked_.list);
+        const std::size_t n = masked_.list.Size();
+        masked_.Resize();
+        batch_.clear();
+        for (std::size_t i = 0; i < n; ++i) batch_.push_back(static_cast<std::uint32_t>(i));
+        ShadeBatch(m, masked_, /*alpha_only=*/true);
+        for (std::size_t i = 0; i < n; ++i) {
+          if (!(masked_.alpha[i] >= m.alpha_cutoff)) continue;
+          const std::int32_t number = masked_.list.record[i];
+          WriteFragment(Record(number), number, masked_.list.pixel[i], masked_.list.samples[i], tile_);
+        }
+      }
+    }
+  }
+
+  // Shades all fragments of a list, material by material.
+  void Shade(ShadedFragments& fragments) {
+    fragments.Resize();
+    const std::size_t n = fragments.list.Size();
+    material_of_.resize(n);
+    std::int32_t last_number = kNoRecord;
+    int last_material = -1;
+    materials_.clear();
+    for (std::size_t i = 0; i < n; ++i) {
+      if (fragments.list.record[i] != last_number) {
+        last_number = fragments.list.record[i];
+        last_material = in_.geometry.drawables[Record(last_number).drawable].material;
+      }
+      material_of_[i] = last_material;
+      if (std::find(materials_.begin(), materials_.end(), last_material) == materials_.end()) {
+        materials_.push_back(last_material);
+      }
+    }
+    for (const int material : materials_) {
+      batch_.clear();
+      for (std::size_t i = 0; i < n; ++i) {
+        if (material_of_[i] == material) batch_.push_back(static_cast<std::uint32_t>(i));
+      }
+      ShadeBatch(in_.plan.materials[std::size_t(material)].frame, fragments, /*alpha_only=*/false);
+    }
+  }
+
+  // Shades the fragments that batch_ names.
+  void ShadeBatch(const FrameMaterial& material, ShadedFragments& fragments, bool alpha_only) {
+    const std::size_t n = batch_.size();
+    const std::size_t padded = (n + kTaskPadding - 1) / kTaskPadding * kTaskPadding;
+    if (n == 0) return;
+    setup_of_.resize(padded);
+    for (auto* v : {&x_, &y_, &red_, &green_, &blue_, &alpha_}) v->resize(padded);
+    const int anchor_x = tile_.x0 & ~(kAnchorSize - 1), anchor_y = tile_.y0 & ~(kAnchorSize - 1);
+    const FragmentList& list = fragments.list;
+    std::int32_t last_number = kNoRecord, last_setup = 0;
+    ResetSetups(n);
+    for (std::size_t i = 0; i < padded; ++i) {
+      const std::size_t f = batch_[std::min(i, n - 1)];
+      if (list.record[f] != last_number) {
+        last_number = list.record[f];
+        last_setup = SetupFor(material, last_number, anchor_x, anchor_y);
+      }
+      setup_of_[i] = last_setup;
+      const int px = tile_.x0 - anchor_x + list.pixel[f] % tile_.tile_size;
+      const int py = tile_.y0 - anchor_y + list.pixel[f] / tile_.tile_size;
+      x_[i] = static_cast<float>(px) + positions_.X(list.samples[f]);
+      y_[i] = static_cast<float>(py) + positions_.Y(list.samples[f]);
+    }
+    ShadeTask task;
+    task.setup = setup_of_.data();
+    task.x = x_.data();
+    task.y = y_.data();
+    task.count = n;
+    task.setups = setups_.data();
+    task.material = &material;
+    task.lighting = &in_.lighting;
+    task.orthographic = !in_.view.perspective;
+    const glm::dvec3 toward_eye = glm::dvec3(0.0, 0.0, 1.0) * in_.view.camera_from_world;
+    for (int i = 0; i < 3; ++i) task.view_direction[i] = static_cast<float>(toward_eye[i]);
+    task.red = red_.data();
+    task.green = green_.data();
+    task.blue = blue_.data();
+    task.alpha = alpha_.data();
+    task.non_finite = &counts_->non_finite;
+    if (alpha_only) {
+      ShadeAlpha(task);
+    } else if (in_.settings.shader != nullptr) {
+      in_.settings.shader->Shade(task);
+    } else {
+      ShadeMetallicRoughnessFragments(task);
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+      const std::size_t f = batch_[i];
+      fragments.alpha[f] = alpha_[i];
+      if (alpha_only) continue;
+      fragments.red[f] = red_[i], fragments.green[f] = green_[i], fragments.blue[f] = blue_[i];
+    }
+  }
+
+  // --- Setups: one per triangle and batch, found again through a small hash table -------------------------------------
+
+  void ResetSetups(std::size_t fragment_count) {
+    std::size_t capacity = 64;
+    while (capacity < 2 * fragment_count) capacity *= 2;
+    table_.assign(capacity, {kNoRecord, 0});
+    setup_count_ = 0;
+  }
+
+  std::int32_t SetupFor(const FrameMaterial& material, std::int32_t number, int anchor_x, int anchor_y) {
+    const std::size_t mask = table_.size() - 1;
+    std::size_t slot = (static_cast<std::uint32_t>(number) * 2654435761u) & mask;
+    while (table_[slot].number != kNoRecord) {
+      if (table_[slot].number == number) return table_[slot].setup;
+      slot = (slot + 1) & mask;
+    }
+    const auto setup = static_cast<std::int32_t>(setup_count_++);
+    table_[slot] = {number, setup};
+    setups_.resize(std::max(setups_.size(), setup_count_ * SetupLayout::kStride));
+    const TriangleRecord& record = Record(number);
+    SetUpTriangle(in_.view, in_.geometry.drawables[record.drawable], material, record, anchor_x, anchor_y,
+                  setups_.data() + std::size_t(setup) * SetupLayout::kStride);
+    return setup;
+  }
+
+  void FillBackground() {
+    const std::size_t n = std::size_t(tile_.tile_size) * std::size_t(tile_.tile_size);
+    for (auto* v : {&x_, &y_, &alpha_, &red_, &green_, &blue_}) v->resize(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      const int x = tile_.x0 + static_cast<int>(i) % tile_.tile_size, y = tile_.y0 + static_cast<int>(i) / tile_.tile_size;
+      const glm::dvec3 d = DirectionThrough(in_.view, x + 0.5, y + 0.5);
+      x_[i] = static_cast<float>(d.x), y_[i] = static_cast<float>(d.y), alpha_[i] = static_cast<float>(d.z);
+    }
+    ShadeBackground({x_.data(), y_.data(), alpha_.data(), n, &in_.lighting, red_.data(), green_.data(), blue_.data()});
+    background_.resize(n);
+    for (std::size_t i = 0; i < n; ++i) background_[i] = glm::vec4(red_[i], green_[i], blue_[i], 1.0f);
+  }
+
+  struct TableEntry {
+    std::int32_t number, setup;
+  };
+
+  const TilePassInput& in_;
+  const ShadingPositions& positions_;
+  TileCounts* counts_ = nullptr;
+  TileBuffers tile_;
+  ShadedFragments opaque_, masked_, blended_;
+  std::vector<const TriangleRecord*> records_;
+  std::vector<std::int32_t> numbers_;
+  std::vector<int> material_of_, materials_;
+  std::vector<std::uint32_t> batch_;
+  std::vector<TableEntry> table_;
+  std::size_t setup_count_ = 0;
+  std::vector<float> setups_;
+  std::vector<std::int32_t> setup_of_;
+  std::vector<float> x_, y_, red_, green_, blue_, alpha_;
+  std::vector<glm::vec4> background_, pixels_;
+};
+
+// Workers are lent to tasks, so that there are as many as threads, not as tiles.
+class WorkerPool {
+ public:
+  WorkerPool(const TilePassInput& input, const ShadingPositions& positions) : input_(input), positions_(positions) {}
+
+  std::unique_ptr<TileWorker> Take() {
+    const std::lock_guard lock(mutex_);
+    if (idle_.empty()) return std::make_unique<TileWorker>(input_, positions_);
+    std::unique_ptr<TileWorker> worker = std::move(idle_.back());
+    idle_.pop_back();
+    return worker;
+  }
+  void Return(std::unique_ptr<TileWorker> worker) {
+    const std::lock_guard lock(mutex_);
+    idle_.push_back(std::move(worker));
+  }
+
+ private:
+  const TilePassInput& input_;
+  const ShadingPositions& positions_;
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<TileWorker>> idle_;
+};
+
+}  // namespace
+
+void RunTiles(const TilePassInput& input, Film& film, RenderStats& stats) {
+  const ShadingPositions positions(input.settings.samples);
+  WorkerPool pool(input, positions);
+  const std::size_t tile_count = std::size_t(input.grid.Count());
+  std::vector<TileCounts> counts(tile_count);
+  std::atomic<std::size_t> done{0};
+  std::mutex progress_mutex;
+  ParallelFor(tile_count, 1, [&](std::size_t begin, std::size_t end) {
+    std::unique_ptr<TileWorker> worker = pool.Take();
+    for (std::size_t i = begin; i < end; ++i) worker->Run(static_cast<int>(i), film, counts[i]);
+    pool.Return(std::move(worker));
+    const std::size_t now = done += end - begin;
+    if (input.settings.progress && now % 16 == 0) {
+      const std::unique_lock lock(progress_mutex, std::try_to_lock);
+      if (lock.owns_lock()) input.settings.progress(static_cast<double>(now) / static_cast<double>(tile_count));
+    }
+  });
+  for (const TileCounts& c : counts) {
+    stats.fragments_shaded += c.shaded;
+    stats.fragments_blended += c.blended;
+    stats.covered_pixels += c.covered;
+    stats.non_finite_fragments += c.non_finite;
+  }
+  stats.tiles = tile_count;
+}
+
+}  // namespace facet

@@ -1,0 +1,110 @@
+#include "scene/hierarchy.h"
+
+#include <optional>
+
+#include "scene/animation.h"
+
+namespace facet {
+namespace {
+
+std::vector<int> Roots(const Scene& scene) {
+  std::vector<bool> is_child(scene.nodes.size(), false);
+  for (const Node& node : scene.nodes) {
+    for (const int child : node.children) is_child[std::size_t(child)] = true;
+  }
+  std::vector<int> roots;
+  for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
+    if (!is_child[i]) roots.push_back(int(i));
+  }
+  return roots;
+}
+
+}  // namespace
+
+glm::dmat4 ToMatrix(const Transform& transform) {
+  const glm::dmat3 rotation = glm::mat3_cast(NormalizedOrIdentity(transform.rotation));
+  return glm::dmat4(glm::dvec4(rotation[0] * transform.scale.x, 0.0), glm::dvec4(rotation[1] * transform.scale.y, 0.0),
+                    glm::dvec4(rotation[2] * transform.scale.z, 0.0), glm::dvec4(transform.translation, 1.0));
+}
+
+Transform ToTransform(const glm::dmat4& matrix) {
+  glm::dmat3 axes(matrix);
+  glm::dvec3 scale(glm::length(axes[0]), glm::length(axes[1]), glm::length(axes[2]));
+  if (glm::determinant(axes) < 0.0) scale.x = -scale.x;
+  glm::dquat rotation(1.0, 0.0, 0.0, 0.0);
+  if (scale.x != 0.0 && scale.y != 0.0 && scale.z != 0.0) {
+    for (int i = 0; i < 3; ++i) axes[i] /= scale[i];
+    rotation = NormalizedOrIdentity(glm::quat_cast(axes));
+  }
+  return {glm::dvec3(matrix[3]), rotation, scale};
+}
+
+PosedNodes PlaceNodes(const Scene& scene, const Animation* animation, double time) {
+  const std::size_t count = scene.nodes.size();
+  PosedNodes posed;
+  posed.weights.resize(count);
+  std::vector<Transform> transforms(count);
+  std::vector<bool> animated(count, false);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Node& node = scene.nodes[i];
+    transforms[i] = node.transform;
+    if (!node.weights.empty()) {
+      posed.weights[i] = node.weights;
+    } else if (node.mesh >= 0) {
+      posed.weights[i] = scene.meshes[std::size_t(node.mesh)].weights;
+    }
+  }
+  if (animation != nullptr) {
+    for (const AnimationChannel& channel : animation->channels) {
+      if (channel.node < 0 || channel.times.empty()) continue;
+      const std::size_t i = std::size_t(channel.node);
+      if (channel.path == AnimationPath::Weights) {
+        posed.weights[i] = SampleWeights(channel, time);
+        continue;
+      }
+      // glTF forbids to animate a node that has a matrix; the matrix's parts that are not animated are kept.
+      if (!animated[i] && scene.nodes[i].matrix) transforms[i] = ToTransform(*scene.nodes[i].matrix);
+      animated[i] = true;
+      if (channel.path == AnimationPath::Translation) transforms[i].translation = SampleVector(channel, time);
+      if (channel.path == AnimationPath::Scale) transforms[i].scale = SampleVector(channel, time);
+      if (channel.path == AnimationPath::Rotation) transforms[i].rotation = SampleRotation(channel, time);
+    }
+  }
+
+  posed.world_from_node.assign(count, glm::dmat4(1.0));
+  const auto local = [&](std::size_t i) {
+    return scene.nodes[i].matrix && !animated[i] ? *scene.nodes[i].matrix : ToMatrix(transforms[i]);
+  };
+  std::vector<int> open = Roots(scene);
+  for (const int root : open) posed.world_from_node[std::size_t(root)] = local(std::size_t(root));
+  while (!open.empty()) {
+    const std::size_t parent = std::size_t(open.back());
+    open.pop_back();
+    for (const int child : scene.nodes[parent].children) {
+      posed.world_from_node[std::size_t(child)] = posed.world_from_node[parent] * local(std::size_t(child));
+      open.push_back(child);
+    }
+  }
+  return posed;
+}
+
+std::vector<int> VisibleNodes(const Scene& scene, int scene_index) {
+  if (scene_index < 0) scene_index = scene.default_scene;
+  if (scene_index < 0 && !scene.scenes.empty()) scene_index = 0;
+  const std::vector<int> roots = scene_index < 0 ? Roots(scene) : scene.scenes[std::size_t(scene_index)].nodes;
+  std::vector<int> order;
+  std::vector<bool> seen(scene.nodes.size(), false);
+  std::vector<int> open(roots.rbegin(), roots.rend());  // a stack of our own: hierarchies can be deep
+  while (!open.empty()) {
+    const int index = open.back();
+    open.pop_back();
+    const Node& node = scene.nodes[std::size_t(index)];
+    if (seen[std::size_t(index)] || !node.visible) continue;
+    seen[std::size_t(index)] = true;
+    order.push_back(index);
+    open.insert(open.end(), node.children.rbegin(), node.children.rend());
+  }
+  return order;
+}
+
+}  // namespace facet

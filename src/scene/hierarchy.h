@@ -1,0 +1,31 @@
+// Where every node is at one moment.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "facet/scene.h"
+#include "scene/pose.h"
+
+namespace facet {
+
+// The state of every node of a scene, by index into Scene::nodes.
+struct PosedNodes {
+  std::vector<glm::dmat4> world_from_node;
+  std::vector<std::vector<float>> weights;  // morph weights; the mesh's own where neither node nor animation has any
+};
+
+// Translation * rotation * scale. The rotation is normalised first; a zero one turns nothing.
+glm::dmat4 ToMatrix(const Transform& transform);
+
+// The transform that a matrix is made of, exact where it has no shear. A mirror becomes a negative x scale.
+Transform ToTransform(const glm::dmat4& matrix);
+
+// Places all nodes, whichever scene they belong to: joints may lie outside of the scene that uses them. `animation` may
+// be null: the rest pose. Needs a valid scene (see ValidateScene).
+PosedNodes PlaceNodes(const Scene& scene, const Animation* animation, double time);
+
+// The visible nodes below the chosen scene's roots, depth first, each once. -1: the default scene.
+std::vector<int> VisibleNodes(const Scene& scene, int scene_index);
+
+}  // namespace facet

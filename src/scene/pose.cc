@@ -1,0 +1,251 @@
+#include "scene/pose.h"
+
+#include <cmath>
+#include <map>
+#include <string>
+#include <utility>
+
+#include "base/float_environment.h"
+#include "base/parallel.h"
+#include "facet/error.h"
+#include "scene/bounds.h"
+#include "scene/deform.h"
+#include "scene/geometry.h"
+#include "scene/hierarchy.h"
+#include "scene/tangents.h"
+#include "scene/topology.h"
+
+namespace facet {
+namespace {
+
+// One geometry of the posed scene: a primitive of the scene, or a deformed or completed copy of it.
+struct Shape {
+  const Primitive* primitive = nullptr;
+  std::string where;
+  bool morphed = false;
+  const std::vector<float>* weights = nullptr;  // of the morph targets
+  const JointMatrices* joints = nullptr;        // null: not skinned
+  bool needs_tangents = false;
+  int tex_coord = 0;  // the UV set of the normal texture
+  bool IsDeformed() const { return morphed || joints != nullptr; }
+  bool IsCopy() const { return IsDeformed() || needs_tangents; }
+};
+
+// What Pose and PosedBounds have in common: which geometries there are and where each is drawn.
+struct Plan {
+  std::vector<Shape> shapes;
+  std::vector<std::size_t> shape_of_drawable;
+  std::vector<Drawable> drawables;  // without geometry
+  std::deque<JointMatrices> joints;
+  PosedNodes nodes;
+  std::vector<int> visible;
+};
+
+void CheckSetting(int index, std::size_t count, const char* what) {
+  if (index >= -1 && (index == -1 || std::size_t(index) < count)) return;
+  throw Error(ErrorCode::InvalidUsage,
+              std::string(what) + " " + std::to_string(index) + " is not one of " + std::to_string(count), "pose",
+              "count from 0, or leave it out");
+}
+
+void CheckSettings(const Scene& scene, const PoseSettings& settings) {
+  CheckSetting(settings.scene, scene.scenes.size(), "scene");
+  CheckSetting(settings.animation, scene.animations.size(), "animation");
+  CheckSetting(settings.variant, scene.variants.size(), "variant");
+  if (std::isnan(settings.time)) throw Error(ErrorCode::InvalidUsage, "the time is not a number", "pose");
+}
+
+int MaterialOf(const Primitive& primitive, int variant) {
+  if (variant >= 0 && std::size_t(variant) < primitive.variant_materials.size()) {
+    const int material = primitive.variant_materials[std::size_t(variant)];
+    if (material >= 0) return material;
+  }
+  return primitive.material;
+}
+
+Shape MakeShape(const Scene& scene, const Primitive& primitive, int material) {
+  Shape shape;
+  shape.primitive = &primitive;
+  if (material >= 0 && ClassOf(primitive.topology) == PrimitiveClass::Triangles) {
+    const TextureRef& normal_texture = scene.materials[std::size_t(material)].normal_texture;
+    shape.needs_tangents = normal_texture && (primitive.normals.empty() || primitive.tangents.empty());
+    shape.tex_coord = normal_texture.tex_coord;
+  }
+  return shape;
+}
+
+Plan MakePlan(const Scene& scene, const PoseSettings& settings) {
+  CheckSettings(scene, settings);
+  ValidateScene(scene);
+  Plan plan;
+  const Animation* animation =
+      settings.animation < 0 ? nullptr : &scene.animations[std::size_t(settings.animation)];
+  plan.nodes = PlaceNodes(scene, animation, settings.time);
+  plan.visible = VisibleNodes(scene, settings.scene);
+
+  std::map<const Primitive*, std::size_t> undeformed;  // shapes that all nodes with this mesh share
+  for (const int index : plan.visible) {
+    const Node& node = scene.nodes[std::size_t(index)];
+    if (node.mesh < 0) continue;
+    const Mesh& mesh = scene.meshes[std::size_t(node.mesh)];
+    const glm::dmat4& world_from_node = plan.nodes.world_from_node[std::size_t(index)];
+    const std::vector<float>& weights = plan.nodes.weights[std::size_t(index)];
+    const JointMatrices* joints = nullptr;
+    std::vector<std::size_t> shapes(mesh.primitives.size());
+    for (std::size_t p = 0; p < mesh.primitives.size(); ++p) {
+      const Primitive& primitive = mesh.primitives[p];
+      if (primitive.positions.empty()) continue;
+      Shape shape = MakeShape(scene, primitive, MaterialOf(primitive, settings.variant));
+      shape.where = "mesh " + std::to_string(node.mesh) + ", primitive " + std::to_string(p);
+      shape.weights = &weights;
+      shape.morphed = IsMorphed(primitive, weights);
+      if (node.skin >= 0 && !primitive.joints.empty()) {
+        if (joints == nullptr) {
+          plan.joints.push_back(
+              PlaceJoints(scene.skins[std::size_t(node.skin)], plan.nodes.world_from_node, world_from_node));
+          joints = &plan.joints.back();
+        }
+        shape.joints = joints;
+      }
+      const bool shared = !shape.IsDeformed();
+      const auto found = shared ? undeformed.find(&primitive) : undeformed.end();
+      if (found != undeformed.end()) {
+        shapes[p] = found->second;
+        continue;
+      }
+      shapes[p] = plan.shapes.size();
+      if (shared) undeformed.emplace(&primitive, shapes[p]);
+      plan.shapes.push_back(std::move(shape));
+    }
+    const std::size_t copies = node.instances.empty() ? 1 : node.instances.size();
+    for (std::size_t copy = 0; copy < copies; ++copy) {
+      for (std::size_t p = 0; p < mesh.primitives.size(); ++p) {
+        if (mesh.primitives[p].positions.empty()) continue;
+        Drawable drawable;
+        const JointMatrices* skin = plan.shapes[shapes[p]].joints;
+        // Joints place a skinned mesh, not its node, and so not the node's instances either: it is drawn once.
+        if (skin != nullptr && copy > 0) continue;
+        drawable.world_from_mesh = skin != nullptr           ? skin->world_from_local
+                                   : node.instances.empty() ? world_from_node
+                                                             : world_from_node * ToMatrix(node.instances[copy]);
+        drawable.material = MaterialOf(mesh.primitives[p], settings.variant);
+        drawable.node = index;
+        drawable.mesh = node.mesh;
+        drawable.primitive = int(p);
+        plan.drawables.push_back(drawable);
+        plan.shape_of_drawable.push_back(shapes[p]);
+      }
+    }
+  }
+  return plan;
+}
+
+std::vector<std::vector<std::size_t>> DrawablesOfShapes(const Plan& plan) {
+  std::vector<std::vector<std::size_t>> drawables(plan.shapes.size());
+  for (std::size_t i = 0; i < plan.drawables.size(); ++i) drawables[plan.shape_of_drawable[i]].push_back(i);
+  return drawables;
+}
+
+// The deformed, completed copy of a shape's primitive. Tangents are made between morph and skin: morphing moves the
+// surface under its UVs, skinning carries tangents along.
+Primitive BuildCopy(const Shape& shape) {
+  Primitive copy = CopyWithoutDeformers(*shape.primitive);
+  if (shape.morphed) ApplyMorph(*shape.primitive, *shape.weights, copy);
+  if (shape.joints != nullptr && shape.needs_tangents) {
+    copy.joints = shape.primitive->joints;  // the vertices are about to be split
+    copy.weights = shape.primitive->weights;
+  }
+  if (shape.needs_tangents) {
+    if (copy.normals.empty()) MakeFlat(copy);
+    MakeTangents(shape.tex_coord, copy);
+  }
+  if (shape.joints != nullptr) {
+    ApplySkin(*shape.joints, shape.needs_tangents ? copy : *shape.primitive, shape.where, copy);
+  }
+  copy.joints.clear();
+  copy.weights.clear();
+  return copy;
+}
+
+// The box of a shape before world_from_mesh, without building more of a deformed copy than its positions.
+Bounds BoundsOfShape(const Shape& shape, std::vector<glm::vec3>& positions) {
+  Primitive copy;
+  copy.positions = shape.primitive->positions;
+  if (shape.morphed) ApplyMorph(*shape.primitive, *shape.weights, copy);
+  if (shape.joints != nullptr) ApplySkin(*shape.joints, *shape.primitive, shape.where, copy);
+  positions = std::move(copy.positions);
+  return BoundsOf(positions);
+}
+
+void PlaceLightsAndCameras(const Scene& scene, const Plan& plan, PosedScene& posed) {
+  for (const int index : plan.visible) {
+    const Node& node = scene.nodes[std::size_t(index)];
+    const glm::dmat4& world_from_node = plan.nodes.world_from_node[std::size_t(index)];
+    if (node.light >= 0) {
+      PosedLight light;
+      light.light = &scene.lights[std::size_t(node.light)];
+      light.position_world = glm::dvec3(world_from_node[3]);
+      const glm::dvec3 backward(world_from_node[2]);
+      const double length = std::sqrt(glm::dot(backward, backward));
+      if (length > 0.0 && std::isfinite(length)) light.direction_world = -backward / length;
+      posed.lights.push_back(light);
+    }
+    if (node.camera >= 0) posed.cameras.push_back({node.camera, world_from_node});
+  }
+}
+
+}  // namespace
+
+PosedScene Pose(const Scene& scene, const PoseSettings& settings) {
+  const FloatEnvironment environment;
+  Plan plan = MakePlan(scene, settings);
+  PosedScene posed;
+  std::vector<const Primitive*> geometries(plan.shapes.size());
+  std::vector<std::pair<std::size_t, Primitive*>> copies;
+  for (std::size_t i = 0; i < plan.shapes.size(); ++i) {
+    geometries[i] = plan.shapes[i].primitive;
+    if (!plan.shapes[i].IsCopy()) continue;
+    geometries[i] = &posed.owned.emplace_back();
+    copies.emplace_back(i, &posed.owned.back());
+  }
+  ParallelFor(copies.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) *copies[i].second = BuildCopy(plan.shapes[copies[i].first]);
+  });
+
+  // Unless they are deformed, the vertices of the file count, as they do in PosedBounds.
+  const auto positions_of = [&](std::size_t i) -> const std::vector<glm::vec3>& {
+    const Shape& shape = plan.shapes[i];
+    return (shape.IsDeformed() ? geometries[i] : shape.primitive)->positions;
+  };
+  std::vector<Bounds> local(plan.shapes.size());
+  ParallelFor(plan.shapes.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) local[i] = BoundsOf(positions_of(i));
+  });
+  const std::vector<std::vector<std::size_t>> drawables_of_shape = DrawablesOfShapes(plan);
+  for (std::size_t i = 0; i < plan.shapes.size(); ++i) {
+    for (const std::size_t drawable : drawables_of_shape[i]) {
+      plan.drawables[drawable].geometry = geometries[i];
+      AddPlaced(positions_of(i), local[i], plan.drawables[drawable].world_from_mesh, posed.bounds);
+    }
+  }
+  posed.drawables = std::move(plan.drawables);
+  PlaceLightsAndCameras(scene, plan, posed);
+  return posed;
+}
+
+Bounds PosedBounds(const Scene& scene, const PoseSettings& settings) {
+  const FloatEnvironment environment;
+  const Plan plan = MakePlan(scene, settings);
+  const std::vector<std::vector<std::size_t>> drawables_of_shape = DrawablesOfShapes(plan);
+  Bounds bounds;
+  std::vector<glm::vec3> positions;  // of one shape at a time
+  for (std::size_t i = 0; i < plan.shapes.size(); ++i) {
+    const Bounds local = BoundsOfShape(plan.shapes[i], positions);
+    for (const std::size_t drawable : drawables_of_shape[i]) {
+      AddPlaced(positions, local, plan.drawables[drawable].world_from_mesh, bounds);
+    }
+  }
+  return bounds;
+}
+
+}  // namespace facet

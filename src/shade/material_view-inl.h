@@ -1,0 +1,95 @@
+// A material's textures and factors under a packet of fragments.
+
+#if defined(FACET_SHADE_MATERIAL_VIEW_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef FACET_SHADE_MATERIAL_VIEW_INL_H_
+#undef FACET_SHADE_MATERIAL_VIEW_INL_H_
+#else
+#define FACET_SHADE_MATERIAL_VIEW_INL_H_
+#endif
+
+#include "facet/shader/surface-inl.h"
+#include "material/closure-inl.h"
+#include "plan/frame_material.h"
+#include "texture/sample-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace facet {
+namespace HWY_NAMESPACE {
+
+// T is Float: textures are read on lanes.
+template <class T>
+class MaterialView {
+ public:
+  HWY_INLINE explicit MaterialView(const FrameMaterial& material) : m_(material) {}
+
+  HWY_INLINE bool Lit() const { return m_.Has(kLit); }
+
+  // Factor times texture times vertex colour, straight alpha. Linear.
+  HWY_INLINE Vec4<T> BaseColor(const Surface<T>& s) const {
+    Vec4<T> c{T(m_.base_color[0]) * s.color.x, T(m_.base_color[1]) * s.color.y, T(m_.base_color[2]) * s.color.z,
+              T(m_.base_color[3]) * s.color.w};
+    if (m_.Has(kBaseColorTexture)) c = c * Read<kRgba>(m_.base_color_texture, s);
+    return c;
+  }
+
+  HWY_INLINE T Alpha(const Surface<T>& s) const {
+    T alpha = T(m_.base_color[3]) * s.color.w;
+    if (m_.Has(kBaseColorTexture)) alpha = alpha * Read<kA>(m_.base_color_texture, s).w;
+    return alpha;
+  }
+
+  // The shading normal, unit: the interpolated one, bent by the normal texture.
+  HWY_INLINE Vec3<T> Normal(const Surface<T>& s) const {
+    if (!m_.Has(kNormalTexture)) return s.normal;
+    const Vec4<T> texel = Read<kRgb>(m_.normal_texture, s);
+    const T scale(m_.normal_scale);
+    const Vec3<T> n{(texel.x * T(2.0f) - T(1.0f)) * scale, (texel.y * T(2.0f) - T(1.0f)) * scale,
+                    texel.z * T(2.0f) - T(1.0f)};
+    // As MikkTSpace demands, the bitangent is made here, from the interpolated vectors, which are not normalised.
+    const Vec3<T> tangent = Xyz(s.tangent), bitangent = Cross(s.normal, tangent) * s.tangent.w;
+    return NormalizeOr(tangent * n.x + bitangent * n.y + s.normal * n.z, s.normal);
+  }
+
+  HWY_INLINE Vec3<T> Emissive(const Surface<T>& s) const {
+    Vec3<T> e{T(m_.emissive[0]), T(m_.emissive[1]), T(m_.emissive[2])};
+    if (m_.Has(kEmissiveTexture)) e = e * Xyz(Read<kRgb>(m_.emissive_texture, s));
+    return e;
+  }
+
+  // All that the metallic-roughness model reads.
+  HWY_INLINE MaterialInputs<T> Inputs(const Surface<T>& s) const {
+    MaterialInputs<T> in;
+    const Vec4<T> base = BaseColor(s);
+    in.base_color = Xyz(base);
+    in.alpha_coverage = base.w;
+    in.metallic = T(m_.metallic);
+    in.perceptual_roughness = T(m_.perceptual_roughness);
+    if (m_.Has(kMetallicRoughnessTexture)) {
+      const Vec4<T> texel = Read<kG | kB>(m_.metallic_roughness_texture, s);
+      in.perceptual_roughness = in.perceptual_roughness * texel.y;
+      in.metallic = in.metallic * texel.z;
+    }
+    in.occlusion = T(1.0f);
+    if (m_.Has(kOcclusionTexture)) {
+      in.occlusion = T(1.0f) + T(m_.occlusion_strength) * (Read<kR>(m_.occlusion_texture, s).x - T(1.0f));
+    }
+    in.normal = Normal(s);
+    if (m_.Has(kEmission)) in.emissive = Emissive(s);
+    return in;
+  }
+
+ private:
+  template <int kChannels>
+  HWY_INLINE static Vec4<T> Read(const TextureSlot& slot, const Surface<T>& s) {
+    const int k = slot.uv_slot;
+    return SampleTexture<kChannels>(slot, s.uv[k], s.duv_dx[k], s.duv_dy[k]);
+  }
+
+  const FrameMaterial& m_;
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace facet
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,47 @@
+// Runs a fragment shader functor over a batch of fragments, lanes at a time.
+
+#if defined(FACET_SHADE_SHADE_PACKETS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef FACET_SHADE_SHADE_PACKETS_INL_H_
+#undef FACET_SHADE_SHADE_PACKETS_INL_H_
+#else
+#define FACET_SHADE_SHADE_PACKETS_INL_H_
+#endif
+
+#include "light/lighting-inl.h"
+#include "shade/interpolate-inl.h"
+#include "shade/material_view-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace facet {
+namespace HWY_NAMESPACE {
+
+// Lanes beyond the batch's end repeat numbers that the caller's padding holds; what they give is not read.
+template <class Shader>
+HWY_INLINE void ShadePackets(const ShadeTask& task, const Shader& shader) {
+  const MaterialView<Float> material(*task.material);
+  const LightingView<Float> lighting(*task.lighting);
+  const std::size_t lanes = LaneCount();
+  for (std::size_t i = 0; i < task.count; i += lanes) {
+    const Surface<Float> surface = InterpolateSurface(task, i);
+    const Shaded<Float> shaded = shader(surface, material, lighting);
+    const Vec3<Float> c = shaded.color;
+    const Mask finite = IsFinite(c.x) & IsFinite(c.y) & IsFinite(c.z) & IsFinite(shaded.alpha);
+    const Float zero(0.0f);
+    Store(Select(finite, c.x, zero), task.red + i);
+    Store(Select(finite, c.y, zero), task.green + i);
+    Store(Select(finite, c.z, zero), task.blue + i);
+    Store(Select(finite, Clamp(shaded.alpha, zero, Float(1.0f)), zero), task.alpha + i);
+    if (!All(finite)) {
+      std::uint32_t bad = ~BitsOf(finite);
+      const std::size_t left = task.count - i < lanes ? task.count - i : lanes;
+      bad &= (1u << left) - 1u;
+      *task.non_finite += static_cast<std::uint64_t>(__builtin_popcount(bad));
+    }
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace facet
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,121 @@
+// What `facet info` says.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
+#include "cli/program.h"
+#include "cli/tiny_scene.h"
+
+namespace facet::test {
+namespace {
+
+std::filesystem::path Corpus() {
+  const char* given = std::getenv("FACET_CORPUS");
+  return given != nullptr ? std::filesystem::path(given) : std::filesystem::path(FACET_SOURCE_DIR) / "../shared/corpus";
+}
+
+nlohmann::json Info(const std::string& path) {
+  const Outcome run = RunFacet({"info", path, "--json"});
+  EXPECT_EQ(run.exit_code, 0) << path << ": " << run.err;
+  EXPECT_EQ(run.err, "") << path;
+  return run.exit_code == 0 ? nlohmann::json::parse(run.out) : nlohmann::json();
+}
+
+TEST(FacetInfo, JsonHoldsWhatTheFileHolds) {
+  const Folder folder;
+  const std::string in = folder / "in.gltf";
+  WriteText(in, TinyScene(R"("extensionsUsed": ["KHR_materials_unlit", "KHR_materials_variants", "ABC_unheard_of"],
+                             "extensionsRequired": ["ABC_unheard_of"],)"));
+  const nlohmann::json info = Info(in);
+  EXPECT_EQ(info.at("asset").at("version"), "2.0");
+  EXPECT_EQ(info.at("asset").at("generator"), "facet's tests");
+  EXPECT_EQ(info.at("nodes"), 5);
+  EXPECT_EQ(info.at("geometry").at("triangles"), 4);
+  EXPECT_EQ(info.at("geometry").at("vertices"), 8);
+  ASSERT_EQ(info.at("scenes").size(), 3u);
+  EXPECT_EQ(info.at("default_scene"), 0);
+  EXPECT_EQ(info.at("scenes")[0].at("name"), "Main");
+  EXPECT_EQ(info.at("scenes")[0].at("nodes"), 3);
+  EXPECT_EQ(info.at("scenes")[0].at("drawn").at("triangles"), 2);
+  EXPECT_EQ(info.at("scenes")[0].at("bounds").at("high"), (nlohmann::json{1.0, 1.0, 0.0}));
+  EXPECT_EQ(info.at("scenes")[1].at("bounds").at("low"), (nlohmann::json{-0.25, -0.25, 0.0}));
+  ASSERT_EQ(info.at("meshes").size(), 2u);
+  EXPECT_EQ(info.at("meshes")[0].at("normals"), false);
+  ASSERT_EQ(info.at("materials").size(), 3u);
+  EXPECT_EQ(info.at("materials")[0].at("name"), "Red");
+  EXPECT_EQ(info.at("materials")[0].at("unlit"), true);
+  EXPECT_EQ(info.at("materials")[1].at("primitives"), 1) << "used by a variant";
+  EXPECT_EQ(info.at("materials")[2].at("double_sided"), true);
+  EXPECT_EQ(info.at("materials")[2].at("metallic_factor"), 0.0);
+  ASSERT_EQ(info.at("cameras").size(), 2u);
+  EXPECT_EQ(info.at("cameras")[0].at("type"), "perspective");
+  EXPECT_EQ(info.at("cameras")[1].at("xmag"), 4.0);
+  ASSERT_EQ(info.at("animations").size(), 1u);
+  EXPECT_EQ(info.at("animations")[0].at("duration"), 1.0);
+  EXPECT_EQ(info.at("animations")[0].at("translations"), 1);
+  EXPECT_EQ(info.at("variants"), (nlohmann::json{"Plain", "Blue"}));
+  ASSERT_EQ(info.at("extensions").size(), 3u);
+  EXPECT_EQ(info.at("extensions")[0].at("name"), "ABC_unheard_of");
+  EXPECT_EQ(info.at("extensions")[0].at("required"), true);
+  EXPECT_EQ(info.at("extensions")[0].at("supported"), false);
+  EXPECT_EQ(info.at("extensions")[1].at("supported"), true);
+}
+
+TEST(FacetInfo, TextNamesEverything) {
+  const Folder folder;
+  const std::string in = folder / "in.gltf";
+  WriteText(in, TinyScene(R"("extensionsUsed": ["ABC_unheard_of"], "extensionsRequired": ["ABC_unheard_of"],)"));
+  const Outcome run = RunFacet({"info", in});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  for (const char* word : {"glTF 2.0", "Main", "Small", "4 triangles", "Red", "unlit", "double-sided", "Front", "Flat",
+                           "orthographic", "Slide", "1 s", "Blue", "ABC_unheard_of", "NOT SUPPORTED"}) {
+    EXPECT_NE(run.out.find(word), std::string::npos) << word << " is missing in\n" << run.out;
+  }
+}
+
+TEST(FacetInfo, NamesThatAreNoUtf8StillMakeJson) {
+  const Folder folder;
+  const std::string in = folder / "in.gltf";
+  std::string text = TinyScene();
+  text.replace(text.find("Square"), 6,
+               "Squ\x7f"
+               "re");
+  text.replace(text.find("\"Main\""), 6, "\"Ma\\n\\u0007\"");
+  WriteText(in, text);
+  EXPECT_EQ(Info(in).at("scenes")[0].at("name"), "Ma\n\a");
+  const std::string human = RunFacet({"info", in}).out;
+  EXPECT_NE(human.find("Ma\\x0a\\x07"), std::string::npos) << human;
+}
+
+TEST(FacetInfo, DamagedHelmet) {
+  const std::filesystem::path folder = Corpus() / "models/DamagedHelmet";
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no corpus at " << Corpus();
+  std::filesystem::path file;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const std::string extension = entry.path().extension().string();
+    if (extension == ".glb" || extension == ".gltf") file = entry.path();
+  }
+  const nlohmann::json info = Info(file.string());
+  EXPECT_EQ(info.at("geometry").at("triangles"), 15452);
+  ASSERT_EQ(info.at("materials").size(), 1u);
+  EXPECT_EQ(info.at("materials")[0].at("textures").size(), 5u);
+  EXPECT_EQ(info.at("images").size(), 5u);
+  EXPECT_TRUE(info.at("warnings").empty());
+}
+
+TEST(FacetInfo, DescribesEveryModelOfTheCorpus) {
+  if (!std::filesystem::exists(Corpus() / "models")) GTEST_SKIP() << "no corpus at " << Corpus();
+  int described = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(Corpus() / "models")) {
+    const std::string extension = entry.path().extension().string();
+    if (extension != ".glb" && extension != ".gltf") continue;
+    const nlohmann::json info = Info(entry.path().string());
+    EXPECT_TRUE(info.contains("scenes")) << entry.path();
+    ++described;
+  }
+  EXPECT_GE(described, 78);
+}
+
+}  // namespace
+}  // namespace facet::test

@@ -1,0 +1,304 @@
+#!/usr/bin/env python3
+"""Renders the reference scenes of the corpus with facet and compares with the pictures of other engines.
+
+Shape: intersection over union (IoU) of the coverage mask (alpha of a half and more) with the strict majority of the
+engines' masks. An engine's own IoU is against the same majority, itself included.
+Luminance: Pearson's and Spearman's correlation of CIE L* of two pictures in the pixels that both and the majority
+cover, less a rim of one pixel. Spearman's is blind to exposure and tone curve. A picture's figure is its median over the (other) engines. The
+engines' light cannot be had, except for DamagedHelmet: facet lights with its studio.
+Colour, DamagedHelmet: mean CIEDE2000 inside the shared mask, and mean FLIP over the union of all masks, before black.
+
+Exit codes: 0 the targets are met, 1 they are missed or a scene failed, 77 skipped (no corpus, no program).
+"""
+import csv
+import itertools
+import json
+import math
+import pathlib
+import struct
+import sys
+
+from harness import (Sheets, corpus, heat, in_parallel, need, number, over, parser, print_table, read_rgba, render,
+                     selected, work_folder)
+import numpy as np
+import metrics
+
+TARGET_IOU = 0.995
+ALLOWED_MISSES = 1  # of the scenes shown without a skybox
+COVERED = 0.5
+COLOUR_SCENE = "DamagedHelmet"
+# Extensions that change the look of a surface and that facet has; scenes with others count for their shape.
+LOOKS_KNOWN = {"KHR_materials_unlit", "KHR_materials_emissive_strength", "KHR_materials_variants"}
+
+
+def gltf_json(path):
+    data = path.read_bytes()
+    if data[:4] == b"glTF":
+        length = struct.unpack_from("<I", data, 12)[0]
+        data = data[20:20 + length]
+    return json.loads(data)
+
+
+def unknown_looks(path):
+    used = gltf_json(path).get("extensionsUsed", [])
+    return sorted(name for name in used if name.startswith("KHR_materials_") and name not in LOOKS_KNOWN)
+
+
+def arguments_of(scene, size):
+    """facet's arguments for a line of SCENES.tsv."""
+    root = corpus()
+    environment = root / "environments" / scene["environment"]
+    target = [float(scene[f"target_{axis}"]) for axis in "xyz"]
+    radius = float(scene["radius"])
+    if radius == 0:  # the eye is at the target itself: look at a point straight ahead instead
+        theta, phi, radius = math.radians(float(scene["theta_deg"])), math.radians(float(scene["phi_deg"])), 0.01
+        back = (math.sin(phi) * math.sin(theta), math.cos(phi), math.sin(phi) * math.cos(theta))
+        target = [t - radius * b for t, b in zip(target, back)]
+    arguments = [root / scene["model"], "--size", f"{size[0]}x{size[1]}",
+                 f"--orbit={scene['theta_deg']},{scene['phi_deg']},{radius}",
+                 "--target=" + ",".join(f"{t:.9g}" for t in target), "--fov", scene["vfov_deg"],
+                 "--samples", "8", "--tonemap", "aces", "--ignore-required-extensions", "--background",
+                 "environment" if scene["skybox"] == "yes" else "transparent"]
+    if environment.exists():
+        arguments += ["--environment", environment]
+    return arguments
+
+
+def lightness(picture):
+    return metrics.lab_from_srgb(picture[..., :3].astype(np.float64))[..., 0]
+
+
+def median(values):
+    values = [v for v in values if v == v]
+    return float(np.median(values)) if values else float("nan")
+
+
+def inside(*masks):
+    """The pixels that all masks cover, less a rim of one pixel where enough remain."""
+    shared = np.all(masks, axis=0)
+    inner = metrics.erode(shared)
+    return inner if np.count_nonzero(inner) >= 200 else shared
+
+
+def correlations(pictures, masks, crowd):
+    """{(a, b): (Pearson, Spearman)} of the lightness of every two pictures."""
+    light = {name: lightness(picture) for name, picture in pictures.items()}
+    pairs = {}
+    for a, b in itertools.combinations(pictures, 2):
+        mask = inside(masks[a], masks[b], crowd)
+        pairs[(a, b)] = (float("nan"),) * 2
+        if np.count_nonzero(mask) >= 50:
+            samples = light[a][mask], light[b][mask]
+            pairs[(a, b)] = metrics.pearson(*samples), metrics.spearman(*samples)
+    return pairs
+
+
+def summary(name, pairs, against, kind):
+    """(min, median, mean, max) of a picture's correlations with those named in `against`."""
+    values = [pairs[(a, b)][kind] for a, b in pairs if (a == name and b in against) or (b == name and a in against)]
+    values = [v for v in values if v == v]
+    if not values:
+        return dict.fromkeys(("min", "median", "mean", "max"), float("nan"))
+    return {"min": min(values), "median": median(values), "mean": sum(values) / len(values), "max": max(values)}
+
+
+def colour_distances(pictures, shared, union):
+    """{(a, b): (mean CIEDE2000, mean FLIP)} of every two pictures."""
+    lab = {name: metrics.lab_from_srgb(p[..., :3].astype(np.float64)) for name, p in pictures.items()}
+    flat = {name: over(p, [0, 0, 0]).astype(np.float64) for name, p in pictures.items()}
+    return {(a, b): (float(metrics.ciede2000(lab[a][shared], lab[b][shared]).mean()),
+                     float(metrics.flip(flat[a], flat[b])[union].mean()))
+            for a, b in itertools.combinations(pictures, 2)}
+
+
+def compare(scene, engines, ours, sheets):
+    """All numbers of one scene. `engines`: {name: RGBA}; `ours`: RGBA, or None where only the engines are wanted."""
+    skybox = scene["skybox"] == "yes"
+    result = {"name": scene["name"], "skybox": skybox, "engines": {}, "facet": {},
+              "unknown_looks": unknown_looks(corpus() / scene["model"])}
+    pictures = dict(engines)
+    if ours is not None:
+        pictures["facet"] = ours
+    if skybox:
+        masks = {name: np.ones(p.shape[:2], bool) for name, p in pictures.items()}
+        crowd = next(iter(masks.values()))
+    else:
+        masks = {name: p[..., 3] >= COVERED for name, p in pictures.items()}
+        crowd = metrics.majority([masks[name] for name in engines])
+        for name, mask in masks.items():
+            entry = result["facet"] if name == "facet" else result["engines"].setdefault(name, {})
+            entry["iou"] = float(metrics.intersection_over_union(mask, crowd))
+        for name in engines:  # against the others alone
+            others = metrics.majority([masks[other] for other in engines if other != name])
+            result["engines"][name]["iou_others"] = float(metrics.intersection_over_union(masks[name], others))
+
+    pairs = correlations(pictures, masks, crowd)
+    for name in pictures:
+        others = [other for other in engines if other != name]
+        entry = result["facet"] if name == "facet" else result["engines"].setdefault(name, {})
+        entry["pearson"] = summary(name, pairs, others, 0)
+        entry["spearman"] = summary(name, pairs, others, 1)
+    if ours is not None:
+        result["luminance_ok"] = {
+            kind: bool(result["facet"][kind]["median"]
+                       >= min(result["engines"][e][kind]["median"] for e in engines))
+            for kind in ("pearson", "spearman")}
+    if scene["name"] == COLOUR_SCENE:
+        union = np.any(list(masks.values()), axis=0)
+        distances = colour_distances(pictures, inside(*masks.values()), union)
+        result["colour"] = [{"a": a, "b": b, "ciede2000": d[0], "flip": d[1]} for (a, b), d in distances.items()]
+
+    if sheets.wanted():
+        grey = 0.5
+        panels = [(f"{name} {number(result['engines'][name].get('iou'))}", over(p, [grey] * 3))
+                  for name, p in engines.items()]
+        if ours is not None:
+            panels.append((f"facet {number(result['facet'].get('iou'))}", over(ours, [grey] * 3)))
+            if not skybox:
+                wrong = np.stack([masks["facet"] & ~crowd, crowd & masks["facet"], crowd & ~masks["facet"]], axis=-1)
+                panels.append(("mask: red extra, blue missing", wrong * np.array([1.0, 0.5, 1.0])))
+        sheets.add(scene["name"], panels, ", ".join(result["unknown_looks"]))
+    return result
+
+
+def mean_of_others(distances, name, engines, key):
+    values = [d[key] for d in distances if name in (d["a"], d["b"]) and {d["a"], d["b"]} - {name} <= set(engines)]
+    return sum(values) / len(values)
+
+
+def report(results, with_facet):
+    """Prints the tables; returns what is missed, as sentences."""
+    missed = []
+    engine_names = sorted({name for r in results for name in r["engines"]})
+    short = {"blender-cycles": "blender", "three-gpu-pathtracer": "three-pt", "gltf-sample-viewer": "khronos",
+             "model-viewer": "modelv"}
+    header = ["scene"] + (["IoU"] if with_facet else []) + [short.get(e, e) for e in engine_names]
+    header += (["Spearman", "Pearson"] if with_facet else []) + ["engines' Spearman", "engines' Pearson", "note"]
+    rows = []
+    for r in results:
+        row = [r["name"]]
+        if r.get("error"):
+            rows.append(row + ["FAILED"] + [""] * (len(header) - 3) + [r["error"]])
+            missed.append(f"{r['name']}: {r['error']}")
+            continue
+        notes = ["skybox"] if r["skybox"] else []
+        if with_facet:
+            row.append(number(r["facet"].get("iou")))
+            if r["facet"].get("iou", 1) < TARGET_IOU:
+                notes.append("IoU")
+            if r.get("luminance_ok") and not r["luminance_ok"]["spearman"]:
+                notes.append("luminance")
+        row += [number(r["engines"].get(e, {}).get("iou")) for e in engine_names]
+        if with_facet:
+            row += [number(r["facet"].get(kind, {}).get("median"), "{:.3f}") for kind in ("spearman", "pearson")]
+        for kind in ("spearman", "pearson"):
+            medians = [v[kind]["median"] for v in r["engines"].values() if kind in v]
+            medians = [m for m in medians if m == m]
+            row.append(f"{min(medians):.3f}..{max(medians):.3f}" if medians else "-")
+        notes += [name.replace("KHR_materials_", "+") for name in r["unknown_looks"]]
+        rows.append(row + [" ".join(notes)])
+    print_table(header, rows)
+
+    good = [r for r in results if not r.get("error")]
+    shapes = [r for r in good if not r["skybox"]]
+    print("\nShape: scenes without a skybox with IoU >= %.3f, and the median IoU" % TARGET_IOU)
+    lines = []
+    for name in (["facet"] if with_facet else []) + engine_names:
+        values = [r["facet"]["iou"] if name == "facet" else r["engines"][name]["iou"]
+                  for r in shapes if name == "facet" or name in r["engines"]]
+        if values:
+            lines.append([name, f"{sum(v >= TARGET_IOU for v in values)} of {len(values)}", number(median(values))])
+    print_table(["picture", "reached", "median"], lines)
+    if with_facet:
+        failed = sum(1 for r in results if r.get("error") and not r["skybox"])
+        below = [r["name"] for r in shapes if r["facet"]["iou"] < TARGET_IOU]
+        if len(below) + failed > ALLOWED_MISSES:
+            missed.append(f"shape: {len(below) + failed} scenes below {TARGET_IOU}: " + ", ".join(below))
+
+    looks = [r for r in shapes if not r["unknown_looks"]]
+    print("\nLuminance: median over %d scenes (no skybox, no unknown looks) of each picture's median correlation "
+          "with the (other) engines" % len(looks))
+    lines, middles = [], {"spearman": {}, "pearson": {}}
+    for name in (["facet"] if with_facet else []) + engine_names:
+        row = [name]
+        for kind in ("spearman", "pearson"):
+            values = [(r["facet"] if name == "facet" else r["engines"][name])[kind]["median"]
+                      for r in looks if name == "facet" or name in r["engines"]]
+            middles[kind][name] = median(values)
+            row.append(number(middles[kind][name], "{:.3f}"))
+        lines.append(row)
+    print_table(["picture", "Spearman", "Pearson"], lines)
+    if with_facet and looks:
+        level = [r["name"] for r in looks if r["luminance_ok"]["spearman"]]
+        print(f"facet at or above the lowest engine in {len(level)} of {len(looks)} scenes; below in: "
+              + (", ".join(r["name"] for r in looks if r["name"] not in level) or "none"))
+        lowest = min(v for k, v in middles["spearman"].items() if k != "facet")
+        if not middles["spearman"]["facet"] >= lowest:
+            missed.append(f"luminance: Spearman {middles['spearman']['facet']:.3f}, the lowest engine's {lowest:.3f}")
+
+    for r in good:
+        if "colour" not in r:
+            continue
+        print(f"\nColour of {r['name']}: mean distance to the (other) engines, and to each")
+        engines = sorted(r["engines"])
+        names = (["facet"] if with_facet else []) + engines
+        means = {key: {n: mean_of_others(r["colour"], n, engines, key) for n in names} for key in ("ciede2000", "flip")}
+        lines = []
+        for name in names:
+            row = [name]
+            for key, form in (("ciede2000", "{:.2f}"), ("flip", "{:.4f}")):
+                row.append(number(means[key][name], form))
+                for other in engines:
+                    pair = [d[key] for d in r["colour"] if {d["a"], d["b"]} == {name, other}]
+                    row.append(number(pair[0] if pair else None, form))
+            lines.append(row)
+        print_table(["picture", "CIEDE2000"] + [short.get(e, e) for e in engines] + ["FLIP"]
+                    + [short.get(e, e) for e in engines], lines)
+        if with_facet:
+            for key in means:
+                worst = max(v for k, v in means[key].items() if k != "facet")
+                best = min(v for k, v in means[key].items() if k != "facet")
+                print(f"{key}: facet {means[key]['facet']:.4f}, engines {best:.4f} to {worst:.4f}")
+                if means[key]["facet"] > worst:
+                    missed.append(f"{r['name']}: mean {key} {means[key]['facet']:.4f}, the engines' worst {worst:.4f}")
+    return missed
+
+
+def main():
+    p = parser(__doc__)
+    p.add_argument("--engines-only", action="store_true", help="compare the engines with each other, without facet")
+    options = p.parse_args()
+    folder = corpus() / "references"
+    need(folder / "SCENES.tsv")
+    if not options.engines_only and not options.reuse:
+        need(options.facet)
+    with open(folder / "SCENES.tsv", newline="", encoding="utf-8") as table:
+        scenes = [s for s in csv.DictReader(table, delimiter="\t") if selected(s["name"], options.only)]
+    work, temporary = work_folder(options)
+    sheets = Sheets(options, "facet and the other engines")
+
+    def evaluate(scene):
+        engines = {e: read_rgba(folder / scene["name"] / f"{e}.webp") for e in scene["renders"].split(",")}
+        ours = None
+        if not options.engines_only:
+            height, width = next(iter(engines.values())).shape[:2]
+            picture = work / f"{scene['name']}.png"
+            if not (options.reuse and picture.exists()):
+                error = render(options.facet, arguments_of(scene, (width, height)), picture)
+                if error:
+                    return {"name": scene["name"], "skybox": scene["skybox"] == "yes", "engines": {}, "error": error}
+            ours = read_rgba(picture)
+        return compare(scene, engines, ours, sheets)
+
+    results = in_parallel(evaluate, scenes, options.jobs)
+    missed = report(results, not options.engines_only)
+    sheets.write()
+    if options.json:
+        options.json.write_text(json.dumps({"scenes": results, "missed": missed}, indent=1), encoding="utf-8")
+    del temporary
+    print("\nTargets: " + ("met" if not missed else "MISSED\n  " + "\n  ".join(missed)))
+    return 1 if missed and not options.engines_only else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,231 @@
+// The OpenImageIO module: formats that facet itself does not read, agreement with facet's own decoders, and its absence.
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "facet/film.h"
+#include "facet/load.h"
+#include "image/codec.h"
+#include "image/convert.h"
+#include "image/oiio_loader.h"
+#include "image/image_test_util.h"
+
+namespace facet {
+namespace {
+
+#define FACET_NEEDS_MODULE()                          \
+  try {                                               \
+    RequireOiio();                                    \
+  } catch (const Error& error) {                      \
+    GTEST_SKIP() << error.what();                     \
+  }
+
+std::vector<std::filesystem::path> Files(const std::filesystem::path& folder, const char* extension) {
+  std::vector<std::filesystem::path> out;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    if (entry.path().extension() == extension) out.push_back(entry.path());
+  }
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+TEST(Module, AgreesWithOursOnEveryPngOfTheCorpus) {
+  FACET_NEEDS_CORPUS();
+  FACET_NEEDS_MODULE();
+  int compared = 0;
+  for (const auto& path : Files(Corpus() / "models", ".png")) {
+    const auto bytes = ReadFileWhole(path);
+    Image ours;
+    try {
+      ours = DecodeImage(bytes, path.string());
+    } catch (const Error& error) {
+      ADD_FAILURE() << error.what();
+      continue;
+    }
+    const Image theirs = DecodeWithOiio(bytes, "picture");
+    SCOPED_TRACE(path.string());
+    EXPECT_EQ(ours.width, theirs.width);
+    // OpenImageIO leaves small depths and tRNS to itself in ways of its own: compare what has the same form.
+    if (ours.channels != theirs.channels || ours.type != theirs.type) continue;
+    EXPECT_TRUE(ours.bytes == theirs.bytes);
+    ++compared;
+  }
+  EXPECT_GT(compared, 30);
+}
+
+TEST(Module, AgreesWithOursOnJpegsOfTheCorpus) {
+  FACET_NEEDS_CORPUS();
+  FACET_NEEDS_MODULE();
+  int compared = 0;
+  for (const auto& path : Files(Corpus(), ".jpg")) {
+    if (compared >= 60) break;
+    SCOPED_TRACE(path.string());
+    const auto bytes = ReadFileWhole(path);
+    ExpectSame(DecodeImage(bytes, path.string()), DecodeWithOiio(bytes, "picture"));
+    ++compared;
+  }
+  EXPECT_GT(compared, 0);
+}
+
+TEST(Module, WebPWithStraightAlpha) {
+  FACET_NEEDS_CORPUS();
+  FACET_NEEDS_MODULE();
+  const auto folder = Corpus() / "models" / "WebPQuads-derived";
+  const Image red = LoadImage(folder / "VP8L_red.webp");
+  EXPECT_EQ(red.type, ChannelType::U8);
+  EXPECT_EQ(red.encoding, Encoding::Srgb);
+  EXPECT_EQ(red.As<std::uint8_t>()[0], 255);
+  EXPECT_EQ(red.As<std::uint8_t>()[1], 0);
+  EXPECT_EQ(red.As<std::uint8_t>()[2], 0);
+  for (const char* name : {"VP8L_red_transparent.webp", "VP8X_red_transparent.webp"}) {
+    const Image image = LoadImage(folder / name);
+    ASSERT_EQ(image.channels, 4) << name;
+    EXPECT_LT(image.As<std::uint8_t>()[3], 255) << name;
+    EXPECT_EQ(int(image.As<std::uint8_t>()[3]) != 0 ? int(image.As<std::uint8_t>()[0]) : 255, 255)
+        << name << ": the colour must not be multiplied by alpha " << int(image.As<std::uint8_t>()[3]);
+  }
+  const auto bytes = ReadFileWhole(folder / "lossy_1.webp");
+  const Image large = DecodeImage(bytes, "picture");
+  EXPECT_GT(large.PixelCount(), 1000u);
+  for (std::size_t length = 0; length < bytes.size(); length += 97) {
+    EXPECT_THROW(DecodeImage(std::span(bytes).first(length), "cut"), Error) << length;
+  }
+}
+
+TEST(Module, OpenExrKeepsLinearFloatsAndHidesAssociatedAlpha) {
+  FACET_NEEDS_MODULE();
+  TemporaryFolder folder;
+  for (const int channels : {1, 3}) {
+    const Image image = MakePattern(37, 21, channels, ChannelType::F32, Encoding::Linear);
+    WriteImage(folder / "opaque.exr", image);
+    ExpectSame(LoadImage(folder / "opaque.exr"), image);
+  }
+  // Alpha of powers of two makes multiplication and division exact.
+  Image image = MakePattern(37, 21, 4, ChannelType::F32, Encoding::Linear);
+  for (std::size_t i = 0; i < image.PixelCount(); ++i) image.As<float>()[4 * i + 3] = std::ldexp(1.0f, -int(i % 5));
+  WriteImage(folder / "alpha.exr", image);
+  ExpectSame(LoadImage(folder / "alpha.exr"), image);
+}
+
+TEST(Module, EightBitsInExrAreLinearLight) {
+  FACET_NEEDS_MODULE();
+  TemporaryFolder folder;
+  Image image = MakePattern(1, 1, 4, ChannelType::U8);
+  const std::uint8_t pixel[4] = {188, 0, 255, 51};
+  std::copy(pixel, pixel + 4, image.As<std::uint8_t>());
+  WriteImage(folder / "a.exr", image);
+  const Image back = LoadImage(folder / "a.exr");
+  ASSERT_EQ(back.channels, 4);
+  EXPECT_EQ(back.encoding, Encoding::Linear);
+  EXPECT_NEAR(back.As<float>()[0], 0.5029, 1e-4);  // ((188/255 + 0.055) / 1.055)^2.4
+  EXPECT_EQ(back.As<float>()[1], 0.0f);
+  EXPECT_NEAR(back.As<float>()[2], 1.0f, 1e-6);
+  EXPECT_FLOAT_EQ(back.As<float>()[3], 0.2f);
+}
+
+TEST(Module, RadianceRoundTripIsWithinItsMantissa) {
+  FACET_NEEDS_MODULE();
+  TemporaryFolder folder;
+  const Image image = MakePattern(64, 9, 3, ChannelType::F32, Encoding::Linear);
+  WriteImage(folder / "a.hdr", image);
+  const Image back = LoadImage(folder / "a.hdr");
+  ASSERT_EQ(back.bytes.size(), image.bytes.size());
+  for (std::size_t i = 0; i < image.PixelCount(); ++i) {
+    const float* a = image.As<float>() + 3 * i;
+    const float* b = back.As<float>() + 3 * i;
+    const float largest = std::max({a[0], a[1], a[2]});
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(a[c], b[c], largest / 128.0f);
+  }
+}
+
+TEST(Module, OtherFormatsRoundTrip) {
+  FACET_NEEDS_MODULE();
+  TemporaryFolder folder;
+  for (const ChannelType type : {ChannelType::U8, ChannelType::U16}) {
+    for (const int channels : {1, 3, 4}) {
+      const Image image = MakePattern(31, 17, channels, type);
+      WriteImage(folder / "a.tif", image);
+      ExpectSame(LoadImage(folder / "a.tif"), image);
+    }
+  }
+  Image opaque = MakePattern(31, 17, 3, ChannelType::U8);
+  for (const char* name : {"a.bmp", "a.tga", "a.ppm"}) {
+    SCOPED_TRACE(name);
+    WriteImage(folder / name, opaque);
+    const Image back = LoadImage(folder / name);
+    EXPECT_TRUE(WithChannels(back, 3).bytes == opaque.bytes);
+  }
+  // WebP is lossy here: smooth content comes back nearly the same, alpha exactly, and colour is not multiplied by it.
+  Image smooth = MakePattern(64, 64, 4, ChannelType::U8);
+  for (int i = 0; i < 64 * 64; ++i) {
+    std::uint8_t* pixel = smooth.As<std::uint8_t>() + 4 * i;
+    pixel[0] = 200, pixel[1] = static_cast<std::uint8_t>(i % 64 + 60), pixel[2] = static_cast<std::uint8_t>(i / 64 + 90);
+    pixel[3] = static_cast<std::uint8_t>(64 + i / 64);
+  }
+  WriteImage(folder / "a.webp", smooth);
+  const Image back = LoadImage(folder / "a.webp");
+  ASSERT_EQ(back.bytes.size(), smooth.bytes.size());
+  int worst = 0;
+  for (std::size_t i = 0; i < back.bytes.size(); ++i) {
+    const int difference = std::abs(int(back.As<std::uint8_t>()[i]) - int(smooth.As<std::uint8_t>()[i]));
+    if (i % 4 == 3) {
+      EXPECT_EQ(difference, 0);
+    }
+    worst = std::max(worst, difference);
+  }
+  EXPECT_LE(worst, 12);
+  const Image clear = MakePattern(31, 17, 4, ChannelType::U8);
+  EXPECT_EQ(CodeOf([&] { WriteImage(folder / "a.jpg", clear); }), ErrorCode::InvalidUsage);
+}
+
+TEST(Module, ItsAbsenceIsOneClearLine) {
+  const std::vector<std::filesystem::path> nowhere = {"/nonexistent"};
+  OverrideOiioSearch(&nowhere);
+  std::string what;
+  std::vector<std::byte> exr(64);
+  exr[0] = std::byte{0x76}, exr[1] = std::byte{0x2F}, exr[2] = std::byte{0x31}, exr[3] = std::byte{0x01};
+  EXPECT_EQ(CodeOf([&] { DecodeImage(exr, "sky.exr"); }, &what), ErrorCode::MissingModule);
+  EXPECT_NE(what.find("sky.exr"), std::string::npos) << what;
+  EXPECT_NE(what.find("facet_oiio.so"), std::string::npos) << what;
+  EXPECT_NE(what.find("FACET_MODULE_PATH"), std::string::npos) << what;
+  TemporaryFolder folder;
+  EXPECT_EQ(CodeOf([&] { WriteImage(folder / "a.exr", MakePattern(2, 2, 3, ChannelType::F32, Encoding::Linear)); }),
+            ErrorCode::MissingModule);
+  EXPECT_TRUE(folder.Names().empty());
+  // A file of that name that is no module: its own trouble is reported.
+  const std::vector<std::filesystem::path> broken = {folder.path()};
+  WriteFileWhole(folder / "facet_oiio.so", exr);
+  OverrideOiioSearch(&broken);
+  EXPECT_EQ(CodeOf([&] { DecodeImage(exr, "sky.exr"); }, &what), ErrorCode::MissingModule);
+  EXPECT_NE(what.find("does not open"), std::string::npos) << what;
+  OverrideOiioSearch(nullptr);
+}
+
+TEST(Module, TheEnvironmentVariableComesFirst) {
+  const char* before = std::getenv("FACET_MODULE_PATH");
+  const std::string saved = before ? before : "";
+  setenv("FACET_MODULE_PATH", "/first::/second", 1);
+  const auto candidates = OiioModuleCandidates();
+  ASSERT_GT(candidates.size(), 3u);
+  EXPECT_EQ(candidates[0], "/first/facet_oiio.so");
+  EXPECT_EQ(candidates[1], "/second/facet_oiio.so");
+  EXPECT_EQ(candidates.back(), "facet_oiio.so");
+  if (before) {
+    setenv("FACET_MODULE_PATH", saved.c_str(), 1);
+  } else {
+    unsetenv("FACET_MODULE_PATH");
+  }
+}
+
+TEST(Module, UnknownContentIsAnError) {
+  FACET_NEEDS_MODULE();
+  const std::vector<std::byte> noise(1000, std::byte{0x5A});
+  EXPECT_EQ(CodeOf([&] { DecodeImage(noise, "noise.png"); }), ErrorCode::InvalidInput);
+  EXPECT_EQ(CodeOf([&] { DecodeImage({}, "empty.png"); }), ErrorCode::InvalidInput);
+  std::vector<std::byte> exr = noise;
+  exr[0] = std::byte{0x76}, exr[1] = std::byte{0x2F}, exr[2] = std::byte{0x31}, exr[3] = std::byte{0x01};
+  EXPECT_EQ(CodeOf([&] { DecodeImage(exr, "noise.exr"); }), ErrorCode::InvalidInput);
+}
+
+}  // namespace
+}  // namespace facet

@@ -1,0 +1,221 @@
+#include "scene/pose.h"
+
+#include <gtest/gtest.h>
+
+#include "facet/error.h"
+#include "scene_helpers.h"
+
+namespace facet {
+namespace {
+
+ErrorCode CodeOf(const Scene& scene, const PoseSettings& settings) {
+  try {
+    Pose(scene, settings);
+  } catch (const Error& error) {
+    return error.code();
+  }
+  ADD_FAILURE() << "accepted";
+  return ErrorCode::Internal;
+}
+
+TEST(Pose, MultipliesDownTheHierarchy) {
+  Scene scene = SceneOf(Triangle());
+  scene.nodes.resize(3);
+  scene.nodes[0].transform.translation = {0, 0, 5};
+  scene.nodes[1].children = {0};
+  scene.nodes[1].transform.rotation = RotationAbout({0, 1, 0}, kTestPi / 2);
+  scene.nodes[2].children = {1};
+  scene.nodes[2].matrix = glm::dmat4(2, 0, 0, 0, 0, 3, 0, 0, 0, 0, 4, 0, 10, 20, 30, 1);
+  const PosedScene posed = Pose(scene, {});
+  ASSERT_EQ(posed.drawables.size(), 1u);
+  // (x, y, z) -> (x, y, z + 5) -> (z + 5, y, -x) -> (2 z + 10 + 10, 3 y + 20, -4 x + 30)
+  EXPECT_LT(Distance(WorldPosition(posed.drawables[0], 1), {20, 20, 26}), 1e-13);
+  EXPECT_LT(Distance(WorldPosition(posed.drawables[0], 2), {20, 23, 30}), 1e-13);
+  EXPECT_LT(Distance(posed.bounds.low, {20, 20, 26}), 1e-13);
+  EXPECT_LT(Distance(posed.bounds.high, {20, 23, 30}), 1e-13);
+}
+
+TEST(Pose, RefersToUndeformedGeometry) {
+  const Scene scene = SceneOf(Triangle());
+  const PosedScene posed = Pose(scene, {});
+  EXPECT_EQ(posed.drawables[0].geometry, &scene.meshes[0].primitives[0]);
+  EXPECT_TRUE(posed.owned.empty());
+}
+
+TEST(Pose, VisibilityIsInherited) {
+  Scene scene = SceneOf(Triangle());
+  scene.nodes.resize(4);
+  scene.lights.resize(1);
+  scene.cameras.resize(1);
+  scene.nodes[1].children = {0, 2, 3};
+  scene.nodes[2].light = 0;
+  scene.nodes[3].camera = 0;
+  EXPECT_EQ(Pose(scene, {}).drawables.size(), 1u);
+  EXPECT_EQ(Pose(scene, {}).lights.size(), 1u);
+  EXPECT_EQ(Pose(scene, {}).cameras.size(), 1u);
+  scene.nodes[1].visible = false;
+  const PosedScene hidden = Pose(scene, {});
+  EXPECT_TRUE(hidden.drawables.empty());
+  EXPECT_TRUE(hidden.lights.empty());
+  EXPECT_TRUE(hidden.cameras.empty());
+  EXPECT_TRUE(hidden.bounds.empty);
+}
+
+TEST(Pose, ChoosesTheScene) {
+  Scene scene = SceneOf(Triangle());
+  scene.nodes.resize(3);
+  scene.nodes[1].mesh = scene.nodes[2].mesh = 0;
+  EXPECT_EQ(Pose(scene, {}).drawables.size(), 3u) << "no scenes: every node without a parent";
+  scene.scenes = {{"a", {2}}, {"b", {1, 0}}};
+  EXPECT_EQ(Pose(scene, {}).drawables.size(), 1u);
+  EXPECT_EQ(Pose(scene, {}).drawables[0].node, 2);
+  scene.default_scene = 1;
+  const PosedScene posed = Pose(scene, {});
+  ASSERT_EQ(posed.drawables.size(), 2u);
+  EXPECT_EQ(posed.drawables[0].node, 1);
+  EXPECT_EQ(posed.drawables[1].node, 0);
+  EXPECT_EQ(Pose(scene, {.scene = 0}).drawables[0].node, 2);
+}
+
+TEST(Pose, WalksDepthFirst) {
+  Scene scene = SceneOf(Triangle());
+  scene.nodes.resize(5);
+  for (Node& node : scene.nodes) node.mesh = 0;
+  scene.nodes[4].children = {2, 1};
+  scene.nodes[2].children = {3, 0};
+  const PosedScene posed = Pose(scene, {});
+  std::vector<int> order;
+  for (const Drawable& drawable : posed.drawables) order.push_back(drawable.node);
+  EXPECT_EQ(order, (std::vector<int>{4, 2, 3, 0, 1}));
+}
+
+TEST(Pose, RefusesWhatDoesNotExist) {
+  const Scene scene = SceneOf(Triangle());
+  EXPECT_EQ(CodeOf(scene, {.scene = 0}), ErrorCode::InvalidUsage);
+  EXPECT_EQ(CodeOf(scene, {.animation = 0}), ErrorCode::InvalidUsage);
+  EXPECT_EQ(CodeOf(scene, {.variant = 2}), ErrorCode::InvalidUsage);
+  EXPECT_EQ(CodeOf(scene, {.variant = -2}), ErrorCode::InvalidUsage);
+  EXPECT_EQ(CodeOf(scene, {.time = std::nan("")}), ErrorCode::InvalidUsage);
+  Scene broken = scene;
+  broken.nodes[0].mesh = 9;
+  EXPECT_EQ(CodeOf(broken, {}), ErrorCode::InvalidInput);
+}
+
+TEST(Pose, PlacesInstances) {
+  Scene scene = SceneOf(Triangle());
+  scene.nodes[0].transform.scale = {2, 2, 2};
+  scene.nodes[0].instances = {{{1, 0, 0}}, {{0, 3, 0}, RotationAbout({0, 0, 1}, kTestPi / 2)}};
+  const PosedScene posed = Pose(scene, {});
+  ASSERT_EQ(posed.drawables.size(), 2u);
+  EXPECT_EQ(WorldPosition(posed.drawables[0], 1), glm::dvec3(4, 0, 0));
+  EXPECT_LT(Distance(WorldPosition(posed.drawables[1], 1), {0, 8, 0}), 1e-14);
+  EXPECT_EQ(posed.drawables[0].geometry, posed.drawables[1].geometry);
+  EXPECT_LT(Distance(posed.bounds.low, {-2, 0, 0}), 1e-14);
+  EXPECT_LT(Distance(posed.bounds.high, {4, 8, 0}), 1e-14);
+}
+
+TEST(Pose, VariantsChooseMaterials) {
+  Primitive primitive = Triangle();
+  primitive.material = 0;
+  primitive.variant_materials = {1, -1};
+  Scene scene = SceneOf(primitive);
+  scene.materials.resize(2);
+  scene.variants = {"one", "two"};
+  EXPECT_EQ(Pose(scene, {}).drawables[0].material, 0);
+  EXPECT_EQ(Pose(scene, {.variant = 0}).drawables[0].material, 1);
+  EXPECT_EQ(Pose(scene, {.variant = 1}).drawables[0].material, 0) << "left alone by this variant";
+}
+
+TEST(Pose, AnimatesNodes) {
+  Scene scene = SceneOf(Triangle());
+  scene.nodes[0].transform.scale = {3, 3, 3};
+  scene.animations.resize(1);
+  scene.animations[0].channels = {
+      {0, AnimationPath::Translation, Interpolation::Linear, {0.0f, 2.0f}, {0, 0, 0, 4, 0, 0}},
+      {-1, AnimationPath::Translation, Interpolation::Step, {0.0f}, {9, 9, 9}}};
+  EXPECT_EQ(WorldPosition(Pose(scene, {.animation = 0, .time = 1.0}).drawables[0], 1), glm::dvec3(5, 0, 0));
+  EXPECT_EQ(WorldPosition(Pose(scene, {.animation = 0, .time = 7.0}).drawables[0], 1), glm::dvec3(7, 0, 0));
+  EXPECT_EQ(WorldPosition(Pose(scene, {.time = 1.0}).drawables[0], 1), glm::dvec3(3, 0, 0)) << "rest pose";
+  // A matrix's parts stay unless they are animated.
+  scene.nodes[0].matrix = glm::dmat4(0, 2, 0, 0, -2, 0, 0, 0, 0, 0, 2, 0, 7, 7, 7, 1);
+  EXPECT_LT(Distance(WorldPosition(Pose(scene, {.animation = 0, .time = 1.0}).drawables[0], 1), {2, 2, 0}), 1e-14);
+}
+
+TEST(Pose, LightsShineAlongTheirNodes) {
+  Scene scene;
+  scene.lights.resize(1);
+  scene.nodes.resize(1);
+  scene.nodes[0].light = 0;
+  scene.nodes[0].transform = {{1, 2, 3}, RotationAbout({0, 1, 0}, kTestPi / 2), {5, 5, 5}};
+  const PosedScene posed = Pose(scene, {});
+  ASSERT_EQ(posed.lights.size(), 1u);
+  EXPECT_EQ(posed.lights[0].position_world, glm::dvec3(1, 2, 3));
+  EXPECT_LT(Distance(posed.lights[0].direction_world, {-1, 0, 0}), 1e-15);
+}
+
+TEST(Pose, BoundsSkipVerticesThatAreNotFinite) {
+  Primitive primitive = Triangle();
+  primitive.positions.push_back({std::numeric_limits<float>::quiet_NaN(), 100, 100});
+  primitive.positions.push_back({std::numeric_limits<float>::infinity(), 100, 100});
+  const PosedScene posed = Pose(SceneOf(primitive), {});
+  EXPECT_EQ(posed.bounds.low, glm::dvec3(0, 0, 0));
+  EXPECT_EQ(posed.bounds.high, glm::dvec3(1, 1, 0));
+}
+
+TEST(Pose, BoundsOfTurnedMeshesAreThoseOfTheirVertices) {
+  Primitive primitive;  // a diamond: turned by 45 degrees a square, whose box is smaller than the box's box
+  primitive.positions = {{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}};
+  primitive.indices = {0, 1, 2, 2, 3, 0};
+  Scene scene = SceneOf(primitive);
+  scene.nodes[0].transform.rotation = RotationAbout({0, 0, 1}, kTestPi / 4);
+  const Bounds bounds = Pose(scene, {}).bounds;
+  EXPECT_NEAR(bounds.high.x, std::sqrt(0.5), 1e-15);
+  EXPECT_NEAR(bounds.low.y, -std::sqrt(0.5), 1e-15);
+}
+
+TEST(Pose, MirrorsAndZeroScalesStayFinite) {
+  Scene scene = SceneOf(Triangle());
+  scene.nodes[0].transform.scale = {-1, 0, 1};
+  const PosedScene posed = Pose(scene, {});
+  EXPECT_EQ(posed.bounds.low, glm::dvec3(-1, 0, 0));
+  EXPECT_EQ(posed.bounds.high, glm::dvec3(0, 0, 0));
+  const Bounds bounds = PosedBounds(scene, {});
+  EXPECT_EQ(bounds.low, posed.bounds.low);
+  EXPECT_EQ(bounds.high, posed.bounds.high);
+}
+
+TEST(Pose, CompletesWhatNormalMapsNeed) {
+  Primitive strip;
+  strip.topology = Topology::TriangleStrip;
+  strip.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 1}};
+  strip.tex_coords = {{{0, 1}, {1, 1}, {0, 0}, {1, 0}}};
+  strip.tangents.assign(4, {0, 0, 1, 1});  // of no use without normals
+  strip.material = 0;
+  Scene scene = SceneOf(strip);
+  scene.textures.resize(1);
+  scene.materials.resize(1);
+  scene.materials[0].normal_texture.texture = 0;
+  scene.nodes.push_back(scene.nodes[0]);
+  const PosedScene posed = Pose(scene, {});
+  ASSERT_EQ(posed.drawables.size(), 2u);
+  EXPECT_EQ(posed.drawables[0].geometry, posed.drawables[1].geometry) << "completed once, shared";
+  const Primitive& made = *posed.drawables[0].geometry;
+  EXPECT_EQ(made.topology, Topology::Triangles);
+  ASSERT_EQ(made.positions.size(), 6u);
+  ASSERT_EQ(made.normals.size(), 6u);
+  ASSERT_EQ(made.tangents.size(), 6u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(made.normals[i], glm::vec3(0, 0, 1));
+    EXPECT_LT(Distance(glm::dvec3(made.tangents[i]), {1, 0, 0}), 1e-7);
+    EXPECT_EQ(made.tangents[i].w, 1.0f);
+  }
+  // The second triangle, (1, 0, 0) (1, 1, 1) (0, 1, 0), keeps the strip's winding: its normal looks up too.
+  const glm::dvec3 expected = glm::normalize(glm::dvec3(-1, -1, 1));
+  EXPECT_LT(Distance(glm::dvec3(made.normals[5]), expected), 1e-7);
+
+  scene.materials[0].normal_texture.texture = -1;
+  EXPECT_EQ(Pose(scene, {}).drawables[0].geometry, &scene.meshes[0].primitives[0]) << "without a normal map";
+}
+
+}  // namespace
+}  // namespace facet

@@ -1,0 +1,195 @@
+#include "scene/tangents.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "scene_helpers.h"
+
+namespace facet {
+namespace {
+
+// A square of two triangles in the plane z = 0; `uv` gives each corner its UV.
+template <class F>
+Primitive Square(const F& uv) {
+  Primitive square;
+  square.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  square.normals.assign(4, {0, 0, 1});
+  square.indices = {0, 1, 2, 0, 2, 3};
+  square.tex_coords.resize(1);
+  for (const glm::vec3& p : square.positions) square.tex_coords[0].push_back(uv(p));
+  return square;
+}
+
+TEST(Tangents, FollowRotatedUvs) {
+  for (const double angle : {0.0, 0.3, 1.0, 2.0, 3.0, -1.2}) {
+    const float c = float(std::cos(angle)), s = float(std::sin(angle));
+    // u along (c, s), v down the perpendicular: an image laid upright on the turned square.
+    Primitive square = Square([&](const glm::vec3& p) { return glm::vec2(c * p.x + s * p.y, s * p.x - c * p.y); });
+    MakeTangents(0, square);
+    ASSERT_EQ(square.tangents.size(), 4u);
+    for (const glm::vec4& tangent : square.tangents) {
+      EXPECT_LT(Distance(glm::dvec3(tangent), {c, s, 0}), 1e-6);
+      EXPECT_EQ(tangent.w, 1.0f) << "bitangent = cross(n, t) points up the picture";
+    }
+  }
+}
+
+TEST(Tangents, MirroredUvsTurnTheSign) {
+  Primitive square = Square([](const glm::vec3& p) { return glm::vec2(-p.x, -p.y); });
+  MakeTangents(0, square);
+  for (const glm::vec4& tangent : square.tangents) EXPECT_EQ(tangent, glm::vec4(-1, 0, 0, -1));
+}
+
+// Two squares side by side share an edge's vertices; the UVs of the right one run back: the vertices must be split.
+TEST(Tangents, MirrorSeamsSplitVertices) {
+  Primitive seam;
+  seam.positions = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}, {1, 1, 0}, {2, 1, 0}};
+  seam.normals.assign(6, {0, 0, 1});
+  seam.tex_coords = {{{0, 1}, {1, 1}, {0, 1}, {0, 0}, {1, 0}, {0, 0}}};
+  seam.colors = {{0, 0, 0, 1}, {0.1f, 0, 0, 1}, {0.2f, 0, 0, 1}, {0.3f, 0, 0, 1}, {0.4f, 0, 0, 1}, {0.5f, 0, 0, 1}};
+  seam.indices = {0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4};
+  const Primitive before = seam;
+  MakeTangents(0, seam);
+  ASSERT_EQ(seam.positions.size(), 8u);
+  ASSERT_EQ(seam.tangents.size(), 8u);
+  ASSERT_EQ(seam.indices.size(), 12u);
+  for (std::size_t c = 0; c < 12; ++c) {
+    const std::uint32_t v = seam.indices[c];
+    EXPECT_EQ(seam.positions[v], before.positions[before.indices[c]]);
+    EXPECT_EQ(seam.tex_coords[0][v], before.tex_coords[0][before.indices[c]]);
+    EXPECT_EQ(seam.colors[v], before.colors[before.indices[c]]);
+    EXPECT_EQ(seam.tangents[v], c < 6 ? glm::vec4(1, 0, 0, 1) : glm::vec4(-1, 0, 0, -1));
+  }
+}
+
+// Vertices that a file repeats for each face are one point to the algorithm.
+TEST(Tangents, RepeatedVerticesAreWelded) {
+  const auto bulge = [](const glm::vec3& p) { return glm::vec2(p.x + 0.2f * p.x * p.y, 1 - p.y); };
+  Primitive shared = Square(bulge), repeated = shared;
+  for (std::size_t c = 0; c < 6; ++c) {
+    if (c == 0) repeated = Primitive();
+    repeated.positions.push_back(shared.positions[shared.indices[c]]);
+    repeated.normals.push_back({0, 0, 1});
+    repeated.tex_coords.resize(1);
+    repeated.tex_coords[0].push_back(shared.tex_coords[0][shared.indices[c]]);
+  }
+  const std::vector<std::uint32_t> indices = shared.indices;
+  MakeTangents(0, shared);
+  MakeTangents(0, repeated);
+  ASSERT_EQ(repeated.tangents.size(), 6u);
+  for (std::size_t c = 0; c < 6; ++c) EXPECT_EQ(repeated.tangents[repeated.indices[c]], shared.tangents[indices[c]]);
+}
+
+// The average is weighted by the angle at the corner, in the plane of the normal.
+TEST(Tangents, AreWeightedByAngle) {
+  Primitive fan;  // two triangles at the origin: 90 degrees with u along +x, 45 degrees with u along another direction
+  fan.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 1, 0}};
+  fan.normals.assign(4, {0, 0, 1});
+  fan.indices = {0, 1, 2, 0, 2, 3};
+  fan.tex_coords = {{{0, 0}, {1, 0}, {0, -1}, {-0.5f, -1.5f}}};
+  MakeTangents(0, fan);
+  // First triangle: dP/du = +x. Second: edges (0,1) <-> (0,-1), (-1,1) <-> (-0.5,-1.5): dP/du = (2, 1), dP/dv = (0, -1).
+  const glm::dvec3 expected = glm::normalize(kTestPi / 2 * glm::dvec3(1, 0, 0) +
+                                             kTestPi / 4 * glm::normalize(glm::dvec3(2, 1, 0)));
+  EXPECT_LT(Distance(glm::dvec3(fan.tangents[0]), expected), 1e-6);
+  EXPECT_LT(Distance(glm::dvec3(fan.tangents[1]), {1, 0, 0}), 1e-6) << "not touched by the second triangle";
+}
+
+// On a sphere with u along the longitude the tangent is the direction of the parallel.
+TEST(Tangents, OnASphereRunAlongTheParallels) {
+  constexpr int kColumns = 96, kRows = 48;
+  Primitive sphere;
+  sphere.tex_coords.resize(1);
+  for (int row = 0; row <= kRows; ++row) {
+    for (int column = 0; column <= kColumns; ++column) {
+      const double u = double(column) / kColumns, v = double(row) / kRows;
+      const double longitude = 2 * kTestPi * u, polar = kTestPi * v;
+      const glm::dvec3 p(std::sin(polar) * std::sin(longitude), std::cos(polar), std::sin(polar) * std::cos(longitude));
+      sphere.positions.push_back(glm::vec3(p));
+      sphere.normals.push_back(glm::vec3(p));
+      sphere.tex_coords[0].push_back({float(u), float(v)});
+    }
+  }
+  for (std::uint32_t row = 0; row < kRows; ++row) {
+    for (std::uint32_t column = 0; column < kColumns; ++column) {
+      const std::uint32_t a = row * (kColumns + 1) + column, b = a + kColumns + 1;
+      sphere.indices.insert(sphere.indices.end(), {a, b, b + 1, a, b + 1, a + 1});
+    }
+  }
+  MakeTangents(0, sphere);
+  for (std::size_t i = 0; i < sphere.positions.size(); ++i) {
+    const glm::dvec3 p(sphere.positions[i]), t(sphere.tangents[i]);
+    EXPECT_NEAR(glm::length(t), 1.0, 1e-6);
+    EXPECT_NEAR(glm::dot(t, p), 0.0, 1e-6);
+    if (std::fabs(p.y) > 0.95) continue;  // the triangles at the poles are slivers
+    EXPECT_EQ(sphere.tangents[i].w, 1.0f);
+    EXPECT_GT(glm::dot(t, glm::normalize(glm::dvec3(p.z, 0, -p.x))), std::cos(0.04)) << i;
+  }
+}
+
+TEST(Tangents, TrianglesWithoutUvAreaFollowTheirNeighbours) {
+  Primitive square = Square([](const glm::vec3& p) { return glm::vec2(p.x, 1 - p.y); });
+  square.tex_coords[0][3] = square.tex_coords[0][0];  // the second triangle collapses
+  MakeTangents(0, square);
+  for (std::size_t c = 0; c < 6; ++c) {
+    const glm::vec4 tangent = square.tangents[square.indices[c]];
+    if (c != 5) {
+      EXPECT_EQ(tangent, square.tangents[square.indices[0]]) << c;
+    }
+    EXPECT_NEAR(glm::length(glm::dvec3(tangent)), 1.0, 1e-6);
+  }
+}
+
+TEST(Tangents, DegenerateTrianglesTakeTheirVertexsTangent) {
+  Primitive square = Square([](const glm::vec3& p) { return glm::vec2(p.x, 1 - p.y); });
+  square.indices.insert(square.indices.begin(), {1, 1, 2});
+  MakeTangents(0, square);
+  ASSERT_EQ(square.positions.size(), 4u) << "nothing to split";
+  for (const glm::vec4& tangent : square.tangents) EXPECT_EQ(tangent, glm::vec4(1, 0, 0, 1));
+}
+
+TEST(Tangents, WithoutUvsArePerpendicularToTheNormal) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<float> uniform(-1.0f, 1.0f);
+  Primitive primitive;
+  for (int i = 0; i < 300; ++i) {
+    primitive.positions.push_back({uniform(random), uniform(random), uniform(random)});
+    primitive.normals.push_back(glm::normalize(glm::vec3(uniform(random), uniform(random), uniform(random))));
+  }
+  primitive.normals[0] = {0, 0, -1};
+  primitive.normals[1] = {0, 0, 1};
+  MakeTangents(0, primitive);
+  for (std::size_t i = 0; i < 300; ++i) {
+    const glm::dvec3 t(primitive.tangents[i]);
+    EXPECT_NEAR(glm::length(t), 1.0, 1e-6);
+    EXPECT_NEAR(glm::dot(t, glm::dvec3(primitive.normals[i])), 0.0, 1e-6);
+  }
+}
+
+TEST(Tangents, AreUnitAndFiniteWhateverTheInput) {
+  std::mt19937 random(4);
+  const auto number = [&](int count) { return float(int(random() % unsigned(count))); };
+  for (int trial = 0; trial < 200; ++trial) {
+    Primitive soup;
+    soup.tex_coords.resize(1);
+    const std::uint32_t count = 3 + std::uint32_t(random() % 12);
+    for (std::uint32_t i = 0; i < count; ++i) {
+      soup.positions.push_back({number(3), number(3), number(2)});
+      soup.normals.push_back({number(3) - 1, number(3) - 1, number(3) - 1});  // zero and unnormalised ones too
+      soup.tex_coords[0].push_back({number(3), number(3)});
+    }
+    if (trial % 4 == 0) soup.positions[0].x = std::numeric_limits<float>::quiet_NaN();
+    if (trial % 4 == 1) soup.tex_coords[0][0].x = std::numeric_limits<float>::infinity();
+    for (int i = 0; i < 60; ++i) soup.indices.push_back(std::uint32_t(random() % count));
+    MakeTangents(0, soup);
+    ASSERT_EQ(soup.tangents.size(), soup.positions.size());
+    for (const glm::vec4& tangent : soup.tangents) {
+      ASSERT_NEAR(glm::length(glm::dvec3(tangent)), 1.0, 1e-6);
+      ASSERT_EQ(std::fabs(tangent.w), 1.0f);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace facet
