@@ -1,4 +1,5 @@
-// Writes the bundled scenes and the studio environment: facet_assets FOLDER. The same bytes with every compiler and on every machine.
+// Writes the bundled scenes and the studio environment: facet_assets FOLDER. The same bytes with every compiler and on
+// every machine.
 
 #include <cstdio>
 #include <exception>
@@ -21,9 +22,9 @@ int main(int argc, char** argv) {
       const char* name;
       Glb (*make)();
     };
-    for (const Entry& entry : {Entry{"material_grid.glb", facet::assets::MaterialGrid},
-                               Entry{"showcase.glb", facet::assets::Showcase}, Entry{"room.glb", facet::assets::Room},
-                               Entry{"animated.glb", facet::assets::Animated}}) {
+    for (const Entry& entry :
+         {Entry{"material_grid.glb", facet::assets::MaterialGrid}, Entry{"showcase.glb", facet::assets::Showcase},
+          Entry{"room.glb", facet::assets::Room}, Entry{"animated.glb", facet::assets::Animated}}) {
       entry.make().Write(folder / entry.name);
     }
     facet::assets::WriteStudio(std::filesystem::path(argv[1]) / "studio.hdr");

@@ -24,8 +24,8 @@ double Clamp01(double x);
 double SmoothStep(double low, double high, double x);
 Vec3 Mix(Vec3 a, Vec3 b, double t);
 
-// An 8-bit PNG of size x size pixels. `color`(u, v) gives 3 or 4 numbers in [0, 1] as the file shall hold them; (u, v) is
-// the pixel's centre in [0, 1].
+// An 8-bit PNG of size x size pixels. `color`(u, v) gives 3 or 4 numbers in [0, 1] as the file shall hold them; (u, v)
+// is the pixel's centre in [0, 1].
 std::vector<std::uint8_t> Picture(int size, const std::function<Vec3(double, double)>& color);
 std::vector<std::uint8_t> PictureWithAlpha(int size, const std::function<std::array<double, 4>(double, double)>& color);
 // The tangent-space normal map (+Y up) of a height field that repeats; height and (u, v) in the same unit.

@@ -28,8 +28,11 @@ Json Channel(int sampler, int node, const char* path) {
 void AddTentacle(Glb& glb, Json& channels, Json& samplers) {
   constexpr int kJoints = 7, kKeys = 9;
   constexpr double kLink = 0.22, kHeight = kLink * (kJoints - 1);
-  Shape tube = Tube([](double t) { return Vec3{0, t * kHeight, 0}; },
-                    [](double t) { return 0.14 * (1 - t) + 0.035 * (1 - t * t * t) + 0.004; }, 20, 36);
+  Shape tube = Tube(
+      [](double t) {
+        return Vec3{0, t * kHeight, 0};
+      },
+      [](double t) { return 0.14 * (1 - t) + 0.035 * (1 - t * t * t) + 0.004; }, 20, 36);
   for (const Vec3& p : tube.positions) {
     const double at = std::clamp(p.y / kLink, 0.0, kJoints - 1.0);
     const int low = std::min(int(at), kJoints - 2);
@@ -44,8 +47,7 @@ void AddTentacle(Glb& glb, Json& channels, Json& samplers) {
   for (int key = 0; key < kKeys; ++key) times.push_back(float(kDuration * key / (kKeys - 1)));
   std::array<int, kJoints> joints{};
   for (int joint = kJoints - 1; joint >= 0; --joint) {  // children first: a node names them
-    Json node = {{"name", "joint " + std::to_string(joint)},
-                 {"translation", ToJson({0, joint == 0 ? 0.0 : kLink, 0})}};
+    Json node = {{"name", "joint " + std::to_string(joint)}, {"translation", ToJson({0, joint == 0 ? 0.0 : kLink, 0})}};
     if (joint + 1 < kJoints) node["children"] = Json::array({joints[std::size_t(joint) + 1]});
     joints[std::size_t(joint)] = glb.AddNode(node);
   }
@@ -113,15 +115,11 @@ void AddBlob(Glb& glb, Json& channels, Json& samplers) {
     primitive["targets"].push_back({{"POSITION", glb.AddFloats(Differences(*target, ball, false), 3, true)},
                                     {"NORMAL", glb.AddFloats(Differences(*target, ball, true), 3)}});
   }
-  const int mesh = glb.Add("meshes", {{"name", "blob"},
-                                      {"primitives", Json::array({primitive})},
-                                      {"weights", Json::array({0.0, 0.0})}});
-  const int node = glb.AddRootNode({{"name", "blob"},
-                                    {"mesh", mesh},
-                                    {"translation", ToJson({0, 0.47, 0})},
-                                    {"scale", ToJson({0.4, 0.4, 0.4})}});
-  const int sampler =
-      AddSampler(samplers, glb, {0, 1, 2, 3, 4}, {0, 0, 1, 0, 0, 0.3f, 0, 1, 0, 0}, 1, "LINEAR");
+  const int mesh = glb.Add(
+      "meshes", {{"name", "blob"}, {"primitives", Json::array({primitive})}, {"weights", Json::array({0.0, 0.0})}});
+  const int node = glb.AddRootNode(
+      {{"name", "blob"}, {"mesh", mesh}, {"translation", ToJson({0, 0.47, 0})}, {"scale", ToJson({0.4, 0.4, 0.4})}});
+  const int sampler = AddSampler(samplers, glb, {0, 1, 2, 3, 4}, {0, 0, 1, 0, 0, 0.3f, 0, 1, 0, 0}, 1, "LINEAR");
   channels.push_back(Channel(sampler, node, "weights"));
 }
 
@@ -132,8 +130,8 @@ void AddCube(Glb& glb, Json& channels, Json& samplers) {
                                     {"mesh", glb.AddMesh("cube", BevelledBox({0.3, 0.3, 0.3}, 0.03), material)},
                                     {"translation", ToJson({0.75, 0.3, 0.25})}});
   const std::vector<float> times = {0, 1, 2, 3, 4};
-  const std::vector<float> places = {0.75f, 0.3f, 0.25f, 1.25f, 0.3f, 0.25f, 1.25f, 0.3f,
-                                     -0.25f, 0.75f, 0.3f, -0.25f, 0.75f, 0.3f, 0.25f};
+  const std::vector<float> places = {0.75f,  0.3f,  0.25f, 1.25f,  0.3f,  0.25f, 1.25f, 0.3f,
+                                     -0.25f, 0.75f, 0.3f,  -0.25f, 0.75f, 0.3f,  0.25f};
   channels.push_back(Channel(AddSampler(samplers, glb, times, places, 3, "STEP"), node, "translation"));
   std::vector<float> turns;
   for (int key = 0; key <= 4; ++key) {  // a quarter turn a second about +Y
@@ -159,14 +157,13 @@ void AddCube(Glb& glb, Json& channels, Json& samplers) {
 Glb Animated() {
   Glb glb("animated");
   const int floor = glb.AddMaterial(PlainMaterial("floor", {0.6, 0.6, 0.58}, 0, 0.6));
-  glb.AddRootNode({{"name", "floor"},
-                   {"mesh", glb.AddMesh("floor", BevelledBox({3.4, 0.12, 1.4}, 0.02), floor)}});
+  glb.AddRootNode({{"name", "floor"}, {"mesh", glb.AddMesh("floor", BevelledBox({3.4, 0.12, 1.4}, 0.02), floor)}});
   Json channels = Json::array(), samplers = Json::array();
   AddTentacle(glb, channels, samplers);
   AddBlob(glb, channels, samplers);
   AddCube(glb, channels, samplers);
   glb.Add("animations", {{"name", "loop"}, {"channels", channels}, {"samplers", samplers}});
-  AddPerspectiveCamera(glb, "three quarters", {1.5, 2.0, 4.6}, {0.05, 0.55, 0}, 0.52);
+  AddPerspectiveCamera(glb, "three quarters", {1.4, 2.0, 4.9}, {0.0, 0.6, 0}, 0.56);
   return glb;
 }
 

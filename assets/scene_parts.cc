@@ -18,8 +18,8 @@ Json PlainMaterial(const char* name, Vec3 color, double metallic, double roughne
 }
 
 int AddPerspectiveCamera(Glb& glb, const char* name, Vec3 eye, Vec3 target, double yfov) {
-  const int camera = glb.Add(
-      "cameras", {{"name", name}, {"type", "perspective"}, {"perspective", {{"yfov", yfov}, {"znear", 0.01}}}});
+  const int camera =
+      glb.Add("cameras", {{"name", name}, {"type", "perspective"}, {"perspective", {{"yfov", yfov}, {"znear", 0.01}}}});
   return glb.AddRootNode({{"name", name}, {"camera", camera}, {"matrix", LookAt(eye, target)}});
 }
 

@@ -25,8 +25,10 @@ Glb Room() {
   glb.AddRootNode({{"name", "right wall"},
                    {"mesh", glb.AddMesh("right wall", Quad({1, 0, -1}, {1, 0, 1}, {1, 2, 1}, {1, 2, -1}), green)}});
   glb.AddRootNode({{"name", "ceiling lamp"},
-                   {"mesh", glb.AddMesh("ceiling lamp", Quad({-0.25, 1.995, -0.25}, {0.25, 1.995, -0.25},
-                                                             {0.25, 1.995, 0.25}, {-0.25, 1.995, 0.25}), lamp)}});
+                   {"mesh", glb.AddMesh("ceiling lamp",
+                                        Quad({-0.25, 1.995, -0.25}, {0.25, 1.995, -0.25}, {0.25, 1.995, 0.25},
+                                             {-0.25, 1.995, 0.25}),
+                                        lamp)}});
 
   Shape tall, low;
   tall.Append(BevelledBox({0.58, 1.2, 0.58}, 0.015), {-0.36, 0.6, -0.32}, 0.3);

@@ -11,7 +11,7 @@
 namespace facet::assets {
 namespace {
 
-constexpr int kSides = 6;          // of the lantern
+constexpr int kSides = 6;  // of the lantern
 constexpr double kPaneRadius = 0.118, kPostRadius = 0.125;
 constexpr Vec3 kLanternPlace{-0.17, 0, -0.04};
 
@@ -27,8 +27,7 @@ Json Textured(Glb& glb, const char* name, const std::vector<std::uint8_t>& color
   Json material = PlainMaterial(name, {1, 1, 1}, 1, 1);
   Json& pbr = material["pbrMetallicRoughness"];
   pbr["baseColorTexture"] = TextureInfo(glb.AddTexture(std::string(name) + " colour", color));
-  pbr["metallicRoughnessTexture"] =
-      TextureInfo(glb.AddTexture(std::string(name) + " surface", metallic_roughness));
+  pbr["metallicRoughnessTexture"] = TextureInfo(glb.AddTexture(std::string(name) + " surface", metallic_roughness));
   return material;
 }
 
@@ -59,8 +58,14 @@ void AddFloor(Glb& glb) {
     top.uvs[i] = {top.positions[i].x / (4 * kTile) + 0.125, top.positions[i].z / (4 * kTile) + 0.125};
   }
   glb.AddRootNode({{"name", "floor"}, {"mesh", glb.AddMesh("floor", top, tiles)}});
-  const Shape edge = Lathe({{kRadius, 0}, {kRadius + 0.004, 0.006}, {kRadius + 0.022, 0.006}, {kRadius + 0.03, 0},
-                            {kRadius + 0.03, -0.05}, {kRadius + 0.015, -0.06}, {0, -0.06}}, 96, false);
+  const Shape edge = Lathe({{kRadius, 0},
+                            {kRadius + 0.004, 0.006},
+                            {kRadius + 0.022, 0.006},
+                            {kRadius + 0.03, 0},
+                            {kRadius + 0.03, -0.05},
+                            {kRadius + 0.015, -0.06},
+                            {0, -0.06}},
+                           96, false);
   glb.AddRootNode({{"name", "rim"}, {"mesh", glb.AddMesh("rim", edge, rim)}});
 }
 
@@ -95,23 +100,45 @@ void AddLantern(Glb& glb) {
     frame.Append(BevelledBox({kPostRadius - 0.012, 0.009, 0.009}, 0.002), middle, angle + kPi / kSides);
   }
   frame = ScaleUvs(frame, 2.5);
-  Shape knob = Lathe({{0.0, 0.545}, {0.014, 0.543}, {0.024, 0.534}, {0.027, 0.522}, {0.022, 0.510}, {0.014, 0.503},
-                      {0.013, 0.497}, {0.026, 0.492}, {0.040, 0.482}, {0.044, 0.470}}, 32, true);
+  Shape knob = Lathe({{0.0, 0.545},
+                      {0.014, 0.543},
+                      {0.024, 0.534},
+                      {0.027, 0.522},
+                      {0.022, 0.510},
+                      {0.014, 0.503},
+                      {0.013, 0.497},
+                      {0.026, 0.492},
+                      {0.040, 0.482},
+                      {0.044, 0.470}},
+                     32, true);
   frame.Append(knob);
   const int frame_mesh = glb.AddMesh("frame", frame, copper);
   const int ring_mesh = glb.AddMesh("ring", Torus(0.048, 0.0065, 48, 16), copper);
-  const Shape roof = ScaleUvs(
-      Prism({{0.036, 0.480}, {0.052, 0.462}, {0.085, 0.430}, {0.130, 0.398}, {0.185, 0.374}, {0.185, 0.366},
-             {0.13, 0.372}}, kSides), 2.0);
+  const Shape roof = ScaleUvs(Prism({{0.036, 0.480},
+                                     {0.052, 0.462},
+                                     {0.085, 0.430},
+                                     {0.130, 0.398},
+                                     {0.185, 0.374},
+                                     {0.185, 0.366},
+                                     {0.13, 0.372}},
+                                    kSides),
+                              2.0);
   Shape panes;
   for (int side = 0; side < kSides; ++side) {
     panes.Append(Quad(HexCorner(kPaneRadius, 0.05, side), HexCorner(kPaneRadius, 0.05, side + 1),
                       HexCorner(kPaneRadius, 0.347, side + 1), HexCorner(kPaneRadius, 0.347, side)));
   }
-  const Shape candle = Lathe({{0, 0.168}, {0.030, 0.168}, {0.040, 0.172}, {0.045, 0.168}, {0.046, 0.155}, {0.047, 0.05}},
-                             40, true);
-  const Shape light = Lathe({{0, 0.265}, {0.0035, 0.252}, {0.008, 0.236}, {0.0125, 0.218}, {0.0145, 0.203},
-                             {0.0125, 0.190}, {0.007, 0.181}, {0, 0.178}}, 24, true);
+  const Shape candle =
+      Lathe({{0, 0.168}, {0.030, 0.168}, {0.040, 0.172}, {0.045, 0.168}, {0.046, 0.155}, {0.047, 0.05}}, 40, true);
+  const Shape light = Lathe({{0, 0.285},
+                             {0.004, 0.268},
+                             {0.010, 0.246},
+                             {0.0165, 0.224},
+                             {0.0195, 0.205},
+                             {0.017, 0.189},
+                             {0.009, 0.178},
+                             {0, 0.174}},
+                            24, true);
 
   Json lantern = {{"name", "lantern"}, {"translation", ToJson(kLanternPlace)}, {"children", Json::array()}};
   const double turn = 0.21;  // so that no face looks straight at the camera
@@ -130,7 +157,7 @@ void AddLantern(Glb& glb) {
                                              {"translation", ToJson({0, 0.585, 0})},
                                              {"rotation", Json::array({std::sqrt(0.5), 0.0, 0.0, std::sqrt(0.5)})}}));
   glb.AddRootNode(lantern);
-  AddLight(glb, "candle light", {{"type", "point"}, {"color", ToJson({1, 0.58, 0.24})}, {"intensity", 0.22}},
+  AddLight(glb, "candle light", {{"type", "point"}, {"color", ToJson({1, 0.58, 0.24})}, {"intensity", 0.45}},
            {{"translation", ToJson(kLanternPlace + Vec3{0, 0.23, 0})}});
 }
 
@@ -152,28 +179,40 @@ void AddStones(Glb& glb) {
   });
   for (Vec2& uv : rock.uvs) uv.x *= 2;
   const int mesh = glb.AddMesh("stone", rock, stone);
-  glb.AddRootNode({{"name", "large stone"},
-                   {"mesh", mesh},
-                   {"translation", ToJson({0.25, 0.095, 0.16})},
-                   {"rotation", Json::array({0.0, Sin(0.4), 0.0, Cos(0.4)})},
-                   {"scale", ToJson({0.19, 0.125, 0.155})}});
-  glb.AddRootNode({{"name", "small stone"},
-                   {"mesh", mesh},
-                   {"translation", ToJson({0.05, 0.04, 0.30})},
-                   {"rotation", Json::array({0.0, Sin(1.3), 0.0, Cos(1.3)})},
-                   {"scale", ToJson({0.075, 0.055, 0.065})}});
+  // Lying on its side, across the view, so that neither pole of the texture is seen; `size` is along world axes.
+  const auto place = [&](const char* name, Vec3 at, double turn, Vec3 size) {
+    const double s = Sin(turn / 2) * std::sqrt(0.5), c = Cos(turn / 2) * std::sqrt(0.5);
+    glb.AddRootNode({{"name", name},
+                     {"mesh", mesh},
+                     {"translation", ToJson(at)},
+                     {"rotation", Json::array({s, s, c, c})},
+                     {"scale", ToJson({size.y, size.x, size.z})}});
+  };
+  place("large stone", {0.19, 0.095, 0.20}, 0.25, {0.19, 0.125, 0.15});
+  place("small stone", {-0.01, 0.045, 0.38}, 0.12, {0.078, 0.056, 0.066});
 }
 
 void AddGlassware(Glb& glb) {
   const int amber = AddGlass(glb, "amber glass", {0.62, 0.23, 0.03}, 0.48);
   const int green = AddGlass(glb, "green glass", {0.10, 0.45, 0.22}, 0.34);
   const int gold = glb.AddMaterial(PlainMaterial("gold", {1.0, 0.77, 0.34}, 1, 0.2));
-  const Shape bottle = Lathe({{0.022, 0.300}, {0.030, 0.297}, {0.031, 0.288}, {0.025, 0.283}, {0.023, 0.262},
-                              {0.026, 0.235}, {0.045, 0.205}, {0.068, 0.180}, {0.080, 0.150}, {0.083, 0.110},
-                              {0.083, 0.050}, {0.080, 0.016}, {0.070, 0.004}, {0.0, 0.002}}, 48, true);
-  glb.AddRootNode({{"name", "bottle"},
-                   {"mesh", glb.AddMesh("bottle", bottle, amber)},
-                   {"translation", ToJson({0.23, 0, -0.22})}});
+  const Shape bottle = Lathe({{0.022, 0.300},
+                              {0.030, 0.297},
+                              {0.031, 0.288},
+                              {0.025, 0.283},
+                              {0.023, 0.262},
+                              {0.026, 0.235},
+                              {0.045, 0.205},
+                              {0.068, 0.180},
+                              {0.080, 0.150},
+                              {0.083, 0.110},
+                              {0.083, 0.050},
+                              {0.080, 0.016},
+                              {0.070, 0.004},
+                              {0.0, 0.002}},
+                             48, true);
+  glb.AddRootNode(
+      {{"name", "bottle"}, {"mesh", glb.AddMesh("bottle", bottle, amber)}, {"translation", ToJson({0.36, 0, -0.20})}});
   const Shape ball = Sphere(48, 24);
   const int glass_ball = glb.AddMesh("glass ball", ball, green), gold_ball = glb.AddMesh("gold ball", ball, gold);
   const Vec3 place{-0.20, 0.075, 0.36};
@@ -204,30 +243,33 @@ void AddLeaves(Glb& glb) {
     json["doubleSided"] = true;
     return glb.AddMaterial(json);
   };
-  const Json leaf = glb.MakePrimitive(Leaf(), material("green leaf", {1, 1, 1}));
+  const Json leaf = glb.MakePrimitive(Leaf(), material("green leaf", {0.36, 0.62, 0.13}));
   const auto mesh_with = [&](const char* name, int leaf_material) {
     Json primitive = leaf;
     primitive["material"] = leaf_material;
     return glb.Add("meshes", {{"name", name}, {"primitives", Json::array({primitive})}});
   };
   const int green = glb.Add("meshes", {{"name", "green leaf"}, {"primitives", Json::array({leaf})}});
-  const int amber = mesh_with("amber leaf", material("amber leaf", {2.6, 0.85, 0.35}));
-  const int red = mesh_with("red leaf", material("red leaf", {2.4, 0.32, 0.28}));
+  const int amber = mesh_with("amber leaf", material("amber leaf", {0.95, 0.50, 0.09}));
+  const int red = mesh_with("red leaf", material("red leaf", {0.80, 0.13, 0.06}));
 
   // A twig in the bottle.
-  const Vec3 root{0.23, 0.02, -0.22};
+  const Vec3 root{0.36, 0.02, -0.20};
   const auto twig = [&](double t) {
     return root + Vec3{0.02 * Sin(t * 4) + 0.05 * t * t, 0.55 * t, 0.03 * t - 0.04 * t * t};
   };
   const int bark = glb.AddMaterial(PlainMaterial("bark", {0.20, 0.12, 0.06}, 0, 0.8));
   glb.AddRootNode({{"name", "twig"},
-                   {"mesh", glb.AddMesh("twig", Tube(twig, [](double t) { return 0.006 - 0.0045 * t; }, 8, 24), bark)}});
+                   {"mesh", glb.AddMesh("twig",
+                                        Tube(
+                                            twig, [](double t) { return 0.006 - 0.0045 * t; }, 8, 24),
+                                        bark)}});
   const auto place = [&](const std::string& name, int mesh, Vec3 at, Vec3 along, Vec3 facing, double size) {
     const Vec3 y = Normalize(along), x = Normalize(Cross(y, facing)), z = Cross(x, y);
     glb.AddRootNode({{"name", name},
                      {"mesh", mesh},
-                     {"matrix", Json::array({x.x * size, x.y * size, x.z * size, 0, y.x * size, y.y * size, y.z * size, 0,
-                                             z.x * size, z.y * size, z.z * size, 0, at.x, at.y, at.z, 1})}});
+                     {"matrix", Json::array({x.x * size, x.y * size, x.z * size, 0, y.x * size, y.y * size, y.z * size,
+                                             0, z.x * size, z.y * size, z.z * size, 0, at.x, at.y, at.z, 1})}});
   };
   constexpr int kLeaves = 13;
   for (int i = 0; i < kLeaves; ++i) {
@@ -240,10 +282,14 @@ void AddLeaves(Glb& glb) {
     double x, z, turn, size;
     int mesh;
   };
-  const std::array<Fallen, 8> fallen = {{{0.42, 0.34, 0.4, 0.10, amber}, {-0.42, 0.28, 2.2, 0.11, red},
-                                         {-0.52, -0.06, 4.0, 0.10, amber}, {0.52, -0.02, 5.2, 0.11, red},
-                                         {0.20, 0.50, 3.1, 0.09, red}, {-0.05, 0.56, 1.2, 0.10, amber},
-                                         {0.46, -0.30, 1.9, 0.10, amber}, {-0.36, -0.42, 0.3, 0.11, red}}};
+  const std::array<Fallen, 8> fallen = {{{0.42, 0.34, 0.4, 0.10, amber},
+                                         {-0.42, 0.28, 2.2, 0.11, red},
+                                         {-0.52, -0.06, 4.0, 0.10, amber},
+                                         {0.52, 0.08, 5.2, 0.11, red},
+                                         {0.20, 0.50, 3.1, 0.09, red},
+                                         {-0.05, 0.56, 1.2, 0.10, amber},
+                                         {0.16, -0.46, 1.9, 0.10, amber},
+                                         {-0.36, -0.42, 0.3, 0.11, red}}};
   int number = 0;
   for (const Fallen& leaf_at : fallen) {
     place("fallen leaf " + std::to_string(number++), leaf_at.mesh, {leaf_at.x, 0.012, leaf_at.z},
@@ -260,7 +306,7 @@ Glb Showcase() {
   AddStones(glb);
   AddGlassware(glb);
   AddLeaves(glb);
-  AddPerspectiveCamera(glb, "still life", {0.55, 0.86, 1.72}, {0.02, 0.205, 0.02}, 0.50);
+  AddPerspectiveCamera(glb, "still life", {0.50, 0.80, 1.84}, {0.0, 0.170, 0.0}, 0.575);
   return glb;
 }
 

@@ -133,7 +133,10 @@ Shape BevelledBox(Vec3 size, double bevel) {
   const auto face = [&](Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
     // Outward whatever the order of the corners: the box is convex and holds the origin.
     const Vec3 normal = Cross(b - a, d - a);
-    shape.Append(Dot(normal, a + c) > 0 ? Quad(a, b, c, d) : Quad(b, a, d, c));
+    Shape quad = Dot(normal, a + c) > 0 ? Quad(a, b, c, d) : Quad(b, a, d, c);
+    const double width = std::sqrt(Dot(b - a, b - a)), height = std::sqrt(Dot(d - a, d - a));
+    for (Vec2& uv : quad.uvs) uv = {uv.x * width, uv.y * height};
+    shape.Append(quad);
   };
   for (double s : {-1.0, 1.0}) {
     face({-xi, -yi, s * z}, {xi, -yi, s * z}, {xi, yi, s * z}, {-xi, yi, s * z});
@@ -194,8 +197,8 @@ Shape Prism(const std::vector<Vec2>& profile, int sides) {
         shape.positions.push_back(p);
         shape.normals.push_back(normal);
       }
-      for (const Vec2& uv : {Vec2{u - bottom, v_bottom}, Vec2{u + bottom, v_bottom}, Vec2{u + top, v_top},
-                             Vec2{u - top, v_top}}) {
+      for (const Vec2& uv :
+           {Vec2{u - bottom, v_bottom}, Vec2{u + bottom, v_bottom}, Vec2{u + top, v_top}, Vec2{u - top, v_top}}) {
         shape.uvs.push_back(uv);
       }
       if (bottom > 0) shape.indices.insert(shape.indices.end(), {base, base + 1, base + 2});

@@ -49,10 +49,11 @@ Shape Lathe(const std::vector<Vec2>& profile, int columns, bool smooth);
 // first of which is towards +Z. UV are metres.
 Shape Prism(const std::vector<Vec2>& profile, int sides);
 // A tube around `curve`(t), t from 0 (v = 1) to 1 (v = 0), of radius `radius`(t); open at its ends.
-Shape Tube(const std::function<Vec3(double)>& curve, const std::function<double(double)>& radius, int columns, int rows);
+Shape Tube(const std::function<Vec3(double)>& curve, const std::function<double(double)>& radius, int columns,
+           int rows);
 // Centred at the origin; one UV square per face.
 Shape Box(Vec3 size);
-// A box with bevelled edges of width `bevel`.
+// A box with bevelled edges of width `bevel`. UV are metres.
 Shape BevelledBox(Vec3 size, double bevel);
 // Around +Y.
 Shape Torus(double radius, double tube_radius, int columns, int rows);

@@ -67,9 +67,7 @@ double Lichen(double u, double v) {
 
 // --- Metal -----------------------------------------------------------------------------------------------------------
 
-double Verdigris(double u, double v) {
-  return 0.9 * SmoothStep(0.25, 0.95, PeriodicFractal(u, v, 4, 6, 0.6, 120));
-}
+double Verdigris(double u, double v) { return 0.9 * SmoothStep(0.25, 0.95, PeriodicFractal(u, v, 4, 6, 0.6, 120)); }
 
 double Chipped(double u, double v) {
   return SmoothStep(0.52, 0.58, PeriodicFractal(u, v, 6, 5, 0.58, 150) + 0.1 * PeriodicNoise(u * 64, v * 64, 64, 155));
@@ -93,7 +91,7 @@ std::vector<std::uint8_t> TileColor() {
     const bool dark = (point.column + point.row) % 2 != 0;
     const double shade = (Hash(point.column, point.row, 3) - 0.5) * 0.09;
     const double mottle = 0.035 * PeriodicFractal(u, v, 8, 3, 0.55, 7);
-    const Vec3 glaze = dark ? Vec3{0.13, 0.25, 0.31} : Vec3{0.86, 0.81, 0.71};
+    const Vec3 glaze = dark ? Vec3{0.13, 0.25, 0.31} : Vec3{0.80, 0.74, 0.63};
     const Vec3 tile = glaze * (1 + shade + mottle * (dark ? 2.0 : 1.0));
     const Vec3 grout = Vec3{0.46, 0.43, 0.39} * (1 + 0.1 * PeriodicNoise(u * 128, v * 128, 128, 9));
     return Mix(grout, tile, OnTile(point));
@@ -124,9 +122,7 @@ std::vector<std::uint8_t> StoneColor() {
 std::vector<std::uint8_t> StoneNormal() { return NormalMap(256, StoneHeight); }
 
 std::vector<std::uint8_t> StoneOrm() {
-  return Picture(256, [](double u, double v) {
-    return Vec3{StoneCavity(u, v), 0.72 + 0.2 * Lichen(u, v), 0};
-  });
+  return Picture(256, [](double u, double v) { return Vec3{StoneCavity(u, v), 0.72 + 0.2 * Lichen(u, v), 0}; });
 }
 
 std::vector<std::uint8_t> CopperColor() {
@@ -171,10 +167,10 @@ std::vector<std::uint8_t> LeafColor() {
     const double vein = std::fabs(climb - std::floor(climb) - 0.5);
     const double lines = std::max(1 - SmoothStep(0.004, 0.014, std::fabs(x)), 0.7 * (1 - SmoothStep(0.03, 0.1, vein)));
     const double mottle = 0.5 + 0.5 * PeriodicFractal(u, v, 6, 4, 0.55, 170);
-    Vec3 color = Mix({0.30, 0.47, 0.14}, {0.46, 0.60, 0.20}, Clamp01(mottle));
-    color = Mix(color, {0.66, 0.74, 0.38}, 0.7 * lines);
+    Vec3 color = Mix({0.66, 0.70, 0.56}, {0.84, 0.86, 0.70}, Clamp01(mottle));
+    color = Mix(color, {0.97, 0.97, 0.90}, 0.7 * lines);
     color = color * (0.82 + 0.18 * SmoothStep(0.0, 0.05, inside));
-    if (alpha == 0) color = {0.36, 0.50, 0.16};  // what filtering at the outline may reach
+    if (alpha == 0) color = {0.72, 0.75, 0.60};  // what filtering at the outline may reach
     return std::array<double, 4>{color.x, color.y, color.z, alpha};
   });
 }

@@ -20,7 +20,7 @@ std::vector<std::uint8_t> CopperMetallicRoughness();
 // Enamel paint, chipped to the metal.
 std::vector<std::uint8_t> PaintColor();
 std::vector<std::uint8_t> PaintMetallicRoughness();
-// A leaf with its outline in alpha; the stalk at the bottom.
+// A pale leaf, to be tinted, with its outline in alpha; the stalk at the bottom.
 std::vector<std::uint8_t> LeafColor();
 // A flame from its tip (top) to its base.
 std::vector<std::uint8_t> FlameEmission();

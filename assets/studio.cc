@@ -14,8 +14,8 @@
 namespace facet::assets {
 namespace {
 
-// Ward (1991), Real Pixels: a shared exponent. Mantissas are rounded to nearest: facet reads them as they stand, so that
-// rounding down would darken the light by half a step.
+// Ward (1991), Real Pixels: a shared exponent. Mantissas are rounded to nearest: facet reads them as they stand, so
+// that rounding down would darken the light by half a step.
 void AppendRgbe(std::vector<std::uint8_t>* planes, const float* rgb) {
   const float largest = std::max(rgb[0], std::max(rgb[1], rgb[2]));
   int exponent = 0;
@@ -24,7 +24,8 @@ void AppendRgbe(std::vector<std::uint8_t>* planes, const float* rgb) {
     return;
   }
   std::frexp(largest, &exponent);
-  for (int c = 0; c < 3; ++c) planes[c].push_back(std::uint8_t(std::min(255.0f, std::ldexp(rgb[c], 8 - exponent) + 0.5f)));
+  for (int c = 0; c < 3; ++c)
+    planes[c].push_back(std::uint8_t(std::min(255.0f, std::ldexp(rgb[c], 8 - exponent) + 0.5f)));
   planes[3].push_back(std::uint8_t(exponent + 128));
 }
 

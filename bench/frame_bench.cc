@@ -1,5 +1,5 @@
-// Whole frames: nanoseconds per covered pixel and per triangle, and the stages' times, for DamagedHelmet (from the folder
-// that FACET_CORPUS names) and the bundled scenes.
+// Whole frames: nanoseconds per covered pixel and per triangle, and the stages' times, for DamagedHelmet (from the
+// folder that FACET_CORPUS names) and the bundled scenes.
 //
 // What is timed: "load" reads the file; "frame" renders a loaded scene, images decoded anew; "file to file" does
 // everything that the program does between its command line and its PNG.

@@ -15,6 +15,7 @@ cd "$root"
 scripts/install-dependencies.sh
 echo "building facet (a few minutes the first time) ..."
 cmake --preset release -DFACET_BUILD_TESTS=OFF -DFACET_BUILD_BENCH=OFF >/dev/null
-cmake --build --preset release --target facet --target facet_oiio
-build/release/facet render assets/scenes/showcase.glb --camera "still life" --size 1280x960 --samples 8 -o "$picture"
+cmake --build --preset release --target facet facet_oiio
+build/release/facet render assets/scenes/showcase.glb --camera "still life" --size 1280x960 --samples 8 \
+  --background "#22262c" --exposure -0.3 -o "$picture"
 echo "the picture is $picture; next: build/release/facet --help"

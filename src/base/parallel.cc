@@ -1,6 +1,7 @@
 #include "base/parallel.h"
 
 #include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -12,6 +13,10 @@ namespace facet {
 
 void RunWithThreads(int threads, const std::function<void()>& body) {
   const FloatEnvironment pinned;
+  // More threads than cores are granted only on demand (they serve tests of determinism).
+  const std::size_t wanted = std::max<std::size_t>(
+      static_cast<std::size_t>(threads), tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+  const tbb::global_control allowance(tbb::global_control::max_allowed_parallelism, wanted);
   tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
   arena.execute([&] { body(); });
 }

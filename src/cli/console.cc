@@ -35,7 +35,12 @@ std::string Printable(std::string_view text) {
   return out;
 }
 
-std::string Quoted(std::string_view text) { return "'" + Printable(text) + "'"; }
+std::string Quoted(std::string_view text) {
+  std::string quoted(1, '\'');
+  quoted += Printable(text);
+  quoted += '\'';
+  return quoted;
+}
 
 void PrintError(std::string_view text) { PrintLine("facet: ", text); }
 

@@ -181,10 +181,12 @@ class Listing {
     }
     std::size_t index = 0;
     for (const auto& thing : things) {
-      std::string line = Format("  %3zu  ", index) + names[index];
       const std::string description = Printable(Describe(thing));
-      if (!description.empty() && width > names[index].size()) line.append(width - names[index].size(), ' ');
-      text_ += line + (description.empty() || width == 0 ? "" : "  ") + description + "\n";
+      std::string line = Format("  %3zu  ", index) + names[index];
+      if (!description.empty() && width > 0) {
+        line.append(width > names[index].size() ? width - names[index].size() : 0, ' ') += "  ";
+      }
+      text_ += line + description + "\n";
       ++index;
     }
   }

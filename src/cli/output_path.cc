@@ -14,16 +14,15 @@
 namespace facet::cli {
 namespace {
 
-constexpr std::array<OutputFormat, 12> kFormats = {{
+constexpr std::array<OutputFormat, 11> kFormats = {{
     {.extension = ".png", .sixteen_bits = true},
     {.extension = ".exr", .linear = true},
     {.extension = ".hdr", .linear = true, .alpha = false},
     {.extension = ".tif", .sixteen_bits = true},
     {.extension = ".tiff", .sixteen_bits = true},
-    {.extension = ".webp"},
+    {.extension = ".webp", .alpha = false},  // OpenImageIO writes it without
     {.extension = ".jpg", .alpha = false},
     {.extension = ".jpeg", .alpha = false},
-    {.extension = ".jp2", .sixteen_bits = true},
     {.extension = ".tga"},
     {.extension = ".bmp", .alpha = false},
     {.extension = ".ppm", .alpha = false, .sixteen_bits = true},

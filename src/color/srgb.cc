@@ -11,18 +11,15 @@
 namespace facet {
 namespace {
 
-double Decode(double encoded) {
-  return encoded <= 0.04045 ? encoded / 12.92 : Pow((encoded + 0.055) / 1.055, 2.4);
-}
+double Decode(double encoded) { return encoded <= 0.04045 ? encoded / 12.92 : Pow((encoded + 0.055) / 1.055, 2.4); }
 
-double Encode(double linear) {
-  return linear <= 0.0031308 ? linear * 12.92 : 1.055 * Pow(linear, 1.0 / 2.4) - 0.055;
-}
+double Encode(double linear) { return linear <= 0.0031308 ? linear * 12.92 : 1.055 * Pow(linear, 1.0 / 2.4) - 0.055; }
 
 // The smallest float that is not below `value`.
 float RoundUp(double value) {
   const float rounded = static_cast<float>(value);
-  return static_cast<double>(rounded) < value ? std::nextafter(rounded, std::numeric_limits<float>::infinity()) : rounded;
+  return static_cast<double>(rounded) < value ? std::nextafter(rounded, std::numeric_limits<float>::infinity())
+                                              : rounded;
 }
 
 // Where the nearest of the codes 0..last becomes `code`.
@@ -36,8 +33,7 @@ SrgbTables MakeTables() {
   std::size_t code = 0;
   std::size_t previous = 0;
   for (std::size_t bucket = 0; bucket < tables.codes8.size(); ++bucket) {
-    const std::int32_t bits =
-        SrgbTables::kFirstBits + (static_cast<std::int32_t>(bucket) << SrgbTables::kBucketShift);
+    const std::int32_t bits = SrgbTables::kFirstBits + (static_cast<std::int32_t>(bucket) << SrgbTables::kBucketShift);
     while (std::bit_cast<float>(bits) >= tables.thresholds8[code + 1]) ++code;
     FACET_CHECK_OP(code, <=, previous + 1);
     tables.codes8[bucket] = static_cast<std::int32_t>(code);
@@ -61,7 +57,8 @@ float LinearToSrgb(float linear) { return static_cast<float>(Encode(linear)); }
 const std::array<float, 256>& Srgb8ToLinearTable() {
   static const std::array<float, 256> table = [] {
     std::array<float, 256> result{};
-    for (int code = 0; code < 256; ++code) result[static_cast<std::size_t>(code)] = static_cast<float>(Decode(code / 255.0));
+    for (int code = 0; code < 256; ++code)
+      result[static_cast<std::size_t>(code)] = static_cast<float>(Decode(code / 255.0));
     return result;
   }();
   return table;

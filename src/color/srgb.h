@@ -38,7 +38,7 @@ Srgb8 ToSrgb8(LinearRgb color);
 // What kernels need for exact codes. thresholds[k] is the smallest float whose nearest code is k or more;
 // thresholds[0] = 0, and one infinity follows the last.
 struct SrgbTables {
-  static constexpr int kBucketShift = 16;                // of a float's bits: 128 buckets an octave
+  static constexpr int kBucketShift = 16;                 // of a float's bits: 128 buckets an octave
   static constexpr std::int32_t kFirstBits = 0x39000000;  // 2^-13; all below has code 0
   static constexpr int kBucketCount = (0x3F800000 - kFirstBits) >> kBucketShift;
   std::array<float, 257> thresholds8;

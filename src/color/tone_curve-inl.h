@@ -22,19 +22,22 @@ HWY_INLINE Vec3<T> Clamp(Vec3<T> a, T low, T high) {
 
 // Non-negative and small enough to be squared; Clamp gives its lower bound for NaN.
 template <class T>
-HWY_INLINE Vec3<T> BoundLight(Vec3<T> light) { return Clamp(light, T(0.0f), T(0x1p40f)); }
+HWY_INLINE Vec3<T> BoundLight(Vec3<T> light) {
+  return Clamp(light, T(0.0f), T(0x1p40f));
+}
 
 // A matrix of nine constants, rows first, times a column.
 template <class T>
 HWY_INLINE Vec3<T> Transform(const float (&m)[9], Vec3<T> a) {
-  return {T(m[0]) * a.x + T(m[1]) * a.y + T(m[2]) * a.z,
-          T(m[3]) * a.x + T(m[4]) * a.y + T(m[5]) * a.z,
+  return {T(m[0]) * a.x + T(m[1]) * a.y + T(m[2]) * a.z, T(m[3]) * a.x + T(m[4]) * a.y + T(m[5]) * a.z,
           T(m[6]) * a.x + T(m[7]) * a.y + T(m[8]) * a.z};
 }
 
 // No curve: cut at 1.
 template <class T>
-HWY_INLINE Vec3<T> ClampCurve(Vec3<T> light) { return Clamp(light, T(0.0f), T(1.0f)); }
+HWY_INLINE Vec3<T> ClampCurve(Vec3<T> light) {
+  return Clamp(light, T(0.0f), T(1.0f));
+}
 
 // c / (1 + c) per channel. E. Reinhard, M. Stark, P. Shirley, J. Ferwerda, 2002, "Photographic Tone Reproduction for
 // Digital Images", equation 3; there on luminance, here on each channel, as lectures teach it.
@@ -51,7 +54,8 @@ HWY_INLINE Vec3<T> ReinhardCurve(Vec3<T> light) {
 template <class T>
 HWY_INLINE Vec3<T> AcesCurve(Vec3<T> light) {
   // Rec. 709 to AP1 with the saturation of the rendering transform, and back with that of the output transform.
-  constexpr float kInput[9] = {0.59719f, 0.35458f, 0.04823f, 0.07600f, 0.90834f, 0.01566f, 0.02840f, 0.13383f, 0.83777f};
+  constexpr float kInput[9] = {0.59719f, 0.35458f, 0.04823f, 0.07600f, 0.90834f,
+                               0.01566f, 0.02840f, 0.13383f, 0.83777f};
   constexpr float kOutput[9] = {1.60475f,  -0.53108f, -0.07367f, -0.10208f, 1.10813f,
                                 -0.00605f, -0.00327f, -0.07276f, 1.07602f};
   const Vec3<T> v = Transform(kInput, BoundLight(light) * T(1.0f / 0.6f));
@@ -63,12 +67,13 @@ HWY_INLINE Vec3<T> AcesCurve(Vec3<T> light) {
   return Clamp(Transform(kOutput, Vec3<T>{fit(v.x), fit(v.y), fit(v.z)}), T(0.0f), T(1.0f));
 }
 
-// AgX, base look. T. Sobotka, 2022, "AgX"; the sixth-degree fit of its contrast curve is B. Wrensch's, 2023, "Minimal AgX
-// Implementation"; working space and matrices as in Filament and three.js: Rec. 2020, inset, log2 of [-12.47393,
+// AgX, base look. T. Sobotka, 2022, "AgX"; the sixth-degree fit of its contrast curve is B. Wrensch's, 2023, "Minimal
+// AgX Implementation"; working space and matrices as in Filament and three.js: Rec. 2020, inset, log2 of [-12.47393,
 // 4.026069] stops, curve, outset, and 2.2 to the linear light that sRGB encodes afterwards.
 template <class T>
 HWY_INLINE Vec3<T> AgXCurve(Vec3<T> light) {
-  constexpr float kRec2020FromRec709[9] = {0.6274f, 0.3293f, 0.0433f, 0.0691f, 0.9195f, 0.0113f, 0.0164f, 0.0880f, 0.8956f};
+  constexpr float kRec2020FromRec709[9] = {0.6274f, 0.3293f, 0.0433f, 0.0691f, 0.9195f,
+                                           0.0113f, 0.0164f, 0.0880f, 0.8956f};
   constexpr float kRec709FromRec2020[9] = {1.6605f,  -0.5876f, -0.0728f, -0.1246f, 1.1329f,
                                            -0.0083f, -0.0182f, -0.1006f, 1.1187f};
   constexpr float kInset[9] = {0.856627153315983f, 0.0951212405381588f, 0.0482516061458583f,

@@ -22,8 +22,8 @@ float ExposureFactor(double exposure_ev) {
 
 float LinearBackground(float encoded) {
   if (!(encoded >= 0.0f && encoded <= 1.0f)) {
-    throw Error(ErrorCode::InvalidUsage, "a component of the background, " + std::to_string(encoded) + ", is not in [0, 1]",
-                "background");
+    throw Error(ErrorCode::InvalidUsage,
+                "a component of the background, " + std::to_string(encoded) + ", is not in [0, 1]", "background");
   }
   return SrgbToLinear(encoded);
 }
@@ -48,7 +48,8 @@ Image Develop(const Film& film, const DisplaySettings& settings, ChannelType typ
   if (settings.background_srgb) {
     whole.opaque = true;
     for (int channel = 0; channel < 3; ++channel) {
-      whole.background_linear[static_cast<std::size_t>(channel)] = LinearBackground((*settings.background_srgb)[channel]);
+      whole.background_linear[static_cast<std::size_t>(channel)] =
+          LinearBackground((*settings.background_srgb)[channel]);
     }
   }
   if (type == ChannelType::U8) whole.tables = &GetSrgbTables();

@@ -117,7 +117,8 @@ HWY_INLINE void DevelopLinear(const DevelopTask& task, const float* pixels, std:
   if (task.opaque) shown = Clamp(InFront(task, shown, light.w), Float(-kMax), Float(kMax));
   if (!task.opaque && room >= LaneCount()) {
     // The picture's bytes come from operator new, which aligns them for float.
-    hn::StoreInterleaved4(shown.x.raw, shown.y.raw, shown.z.raw, light.w.raw, FloatTag(), reinterpret_cast<float*>(out));
+    hn::StoreInterleaved4(shown.x.raw, shown.y.raw, shown.z.raw, light.w.raw, FloatTag(),
+                          reinterpret_cast<float*>(out));
     return;
   }
   float values[4][kMaxLanes];

@@ -46,16 +46,11 @@ void Convert(const std::byte* from, std::size_t stride, std::size_t count, int r
 void ConvertAny(ComponentType type, const std::byte* from, std::size_t stride, std::size_t count, int read,
                 int components, bool normalized, float* out) {
   switch (type) {
-    case ComponentType::I8:
-      return Convert<std::int8_t>(from, stride, count, read, components, normalized, out);
-    case ComponentType::U8:
-      return Convert<std::uint8_t>(from, stride, count, read, components, normalized, out);
-    case ComponentType::I16:
-      return Convert<std::int16_t>(from, stride, count, read, components, normalized, out);
-    case ComponentType::U16:
-      return Convert<std::uint16_t>(from, stride, count, read, components, normalized, out);
-    case ComponentType::U32:
-      return Convert<std::uint32_t>(from, stride, count, read, components, normalized, out);
+    case ComponentType::I8: return Convert<std::int8_t>(from, stride, count, read, components, normalized, out);
+    case ComponentType::U8: return Convert<std::uint8_t>(from, stride, count, read, components, normalized, out);
+    case ComponentType::I16: return Convert<std::int16_t>(from, stride, count, read, components, normalized, out);
+    case ComponentType::U16: return Convert<std::uint16_t>(from, stride, count, read, components, normalized, out);
+    case ComponentType::U32: return Convert<std::uint32_t>(from, stride, count, read, components, normalized, out);
     case ComponentType::F32: return Convert<float>(from, stride, count, read, components, false, out);
   }
 }
@@ -100,8 +95,8 @@ Layout LayoutOf(int tinygltf_type, ComponentType type) {
 // `count` elements of `size` bytes, `stride` apart, from `offset` on.
 Bytes CheckedRun(const Bytes& view, std::size_t offset, std::size_t count, std::size_t size, std::size_t stride,
                  const Place& place) {
-  const bool fits = offset <= view.size && size <= view.size - offset &&
-                    (count - 1) <= (view.size - offset - size) / stride;
+  const bool fits =
+      offset <= view.size && size <= view.size - offset && (count - 1) <= (view.size - offset - size) / stride;
   if (!fits) {
     Fail(place, std::to_string(count) + " elements from byte " + std::to_string(offset) + " on reach past the " +
                     std::to_string(view.size) + " bytes of their buffer view");
@@ -163,16 +158,15 @@ AccessorView AccessorReader::View(int index) {
     for (std::size_t k = 0; k < view.sparse_count; ++k) {
       const std::size_t target = LoadUnsigned(view.sparse_type, view.sparse_indices.data + k * index_size);
       if (target >= view.count) {
-        Fail(Place(sparse_place, "indices"), std::to_string(target) + " is not one of the " +
-                                                 std::to_string(view.count) + " elements");
+        Fail(Place(sparse_place, "indices"),
+             std::to_string(target) + " is not one of the " + std::to_string(view.count) + " elements");
       }
     }
   }
   return view;
 }
 
-void AccessorReader::ReadFloats(const AccessorView& view, Range range, int components, float* out,
-                                const Place& place) {
+void AccessorReader::ReadFloats(const AccessorView& view, Range range, int components, float* out, const Place& place) {
   const int read = std::min(components, view.components);
   if (view.bytes.data) {
     ConvertAny(view.type, view.bytes.data + range.first * view.stride, view.stride, range.count, read, components,

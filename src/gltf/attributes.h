@@ -17,8 +17,13 @@ class AttributeSource {
   // `draco` may be null. `vertex_count` is what every attribute must have.
   AttributeSource(Context& context, AccessorReader& reader, const std::map<std::string, int>& attributes,
                   const DracoMesh* draco, std::size_t vertex_count, Range range, const Place& place)
-      : context_(context), reader_(reader), attributes_(attributes), draco_(draco), vertex_count_(vertex_count),
-        range_(range), place_(place) {}
+      : context_(context),
+        reader_(reader),
+        attributes_(attributes),
+        draco_(draco),
+        vertex_count_(vertex_count),
+        range_(range),
+        place_(place) {}
 
   bool Has(const std::string& semantic) const { return attributes_.count(semantic) != 0; }
   // Checked to have as many elements as the primitive has vertices, and between the two numbers of components.

@@ -52,8 +52,9 @@ BufferStore::Buffer BufferStore::LoadBuffer(std::size_t index, const std::option
     buffer.present = true;
   }
   if (buffer.present && buffer.bytes.size < buffer.declared_length) {
-    Fail(place, "has " + std::to_string(buffer.bytes.size) + " bytes and declares " +
-                    std::to_string(buffer.declared_length), "fetch the file again");
+    Fail(place,
+         "has " + std::to_string(buffer.bytes.size) + " bytes and declares " + std::to_string(buffer.declared_length),
+         "fetch the file again");
   }
   return buffer;
 }
@@ -90,8 +91,8 @@ const Bytes& BufferStore::View(int index) {
           description.count * description.stride != view.byteLength) {
         Fail(meshopt_place, "count times byteStride is not the buffer view's byteLength");
       }
-      const Bytes packed = Slice(static_cast<std::size_t>(description.buffer), description.offset, description.length,
-                                 meshopt_place);
+      const Bytes packed =
+          Slice(static_cast<std::size_t>(description.buffer), description.offset, description.length, meshopt_place);
       CheckMeshoptSize(description, meshopt_place);
       context_.Charge(description.count, description.stride, meshopt_place);
       views_[i] = DecodeMeshopt(description, packed, meshopt_place);

@@ -122,8 +122,8 @@ void ReadSkins(Context& context, AccessorReader& reader, Scene& scene) {
       const AccessorView view = reader.View(from.inverseBindMatrices);
       if (view.type != ComponentType::F32 || view.components != 16) Fail(matrices_place, "are not float matrices");
       if (view.count < skin.joints.size()) {
-        Fail(matrices_place, "has " + std::to_string(view.count) + " matrices for " +
-                                 std::to_string(skin.joints.size()) + " joints");
+        Fail(matrices_place,
+             "has " + std::to_string(view.count) + " matrices for " + std::to_string(skin.joints.size()) + " joints");
       }
       // More than one for each joint is allowed, and useless.
       context.Charge(skin.joints.size(), sizeof(glm::mat4), matrices_place);

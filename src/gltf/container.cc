@@ -34,8 +34,9 @@ Container OpenContainer(const Bytes& file, const std::string& file_name, std::ve
   }
   const std::size_t declared = ReadU32(file.data + 8);
   if (declared > file.size) {
-    Fail(place, "GLB is cut short: it declares " + std::to_string(declared) + " bytes and has " +
-                    std::to_string(file.size), "fetch the file again");
+    Fail(place,
+         "GLB is cut short: it declares " + std::to_string(declared) + " bytes and has " + std::to_string(file.size),
+         "fetch the file again");
   }
   if (declared < file.size) warnings.push_back("GLB header: ignored: bytes after the declared length");
 

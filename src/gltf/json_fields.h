@@ -43,8 +43,7 @@ int AsIndex(const Json& value, std::size_t count, const char* list, const Place&
 std::vector<double> NumbersAt(const Json& object, const char* key, std::size_t size, const Place& place);
 
 // One of the numbers listed; nothing when absent.
-std::optional<int> OneOfAt(const Json& object, const char* key, std::initializer_list<int> choices,
-                           const Place& place);
+std::optional<int> OneOfAt(const Json& object, const char* key, std::initializer_list<int> choices, const Place& place);
 
 void RequireObject(const Json& value, const Place& place);
 void RequireMember(const Json& object, const char* key, const Place& place);

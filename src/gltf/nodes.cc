@@ -48,8 +48,8 @@ std::vector<Transform> ReadInstances(Context& context, AccessorReader& reader, c
   const Place attributes_place(instancing_place, "attributes");
   std::vector<Transform> instances;
   const auto read = [&](const char* semantic, int components, const auto& store) {
-    const int accessor = IndexAt(*attributes, semantic, context.document.core.accessors.size(), "accessors",
-                                 attributes_place);
+    const int accessor =
+        IndexAt(*attributes, semantic, context.document.core.accessors.size(), "accessors", attributes_place);
     if (accessor < 0) return;
     const Place attribute_place(attributes_place, semantic);
     const AccessorView view = reader.View(accessor);
@@ -147,8 +147,8 @@ Node ReadNode(Context& context, AccessorReader& reader, Scene& scene, std::vecto
   }
   const Place extensions_place(place, "extensions");
   if (const Json* light = ExtensionOf(object, "KHR_lights_punctual", place)) {
-    node.light = RequireIndex(*light, "light", scene.lights.size(), "lights",
-                              Place(extensions_place, "KHR_lights_punctual"));
+    node.light =
+        RequireIndex(*light, "light", scene.lights.size(), "lights", Place(extensions_place, "KHR_lights_punctual"));
   }
   if (const Json* visibility = ExtensionOf(object, "KHR_node_visibility", place)) {
     node.visible = BoolAt(*visibility, "visible", Place(extensions_place, "KHR_node_visibility")).value_or(true);

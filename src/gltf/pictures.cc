@@ -120,8 +120,8 @@ void ReadTextures(Context& context, Scene& scene) {
     }
     const Place extensions_place(place, "extensions");
     if (const Json* webp = ExtensionOf(object, "EXT_texture_webp", place)) {
-      const int source = IndexAt(*webp, "source", scene.images.size(), "images",
-                                 Place(extensions_place, "EXT_texture_webp"));
+      const int source =
+          IndexAt(*webp, "source", scene.images.size(), "images", Place(extensions_place, "EXT_texture_webp"));
       // Where the file offers both, the PNG or JPEG shows the same and needs no further module.
       if (texture.image < 0) texture.image = source;
     }

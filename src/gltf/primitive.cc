@@ -25,8 +25,8 @@ bool IsTriangles(Topology topology) {
   return topology == Topology::Triangles || topology == Topology::TriangleStrip || topology == Topology::TriangleFan;
 }
 
-std::vector<std::uint32_t> ReadIndices(Context& context, AccessorReader& reader, int accessor,
-                                       std::size_t vertex_count, const Place& place) {
+std::vector<std::uint32_t> ReadIndices(Context& context, AccessorReader& reader, int accessor, std::size_t vertex_count,
+                                       const Place& place) {
   const AccessorView view = reader.View(accessor);
   const bool is_unsigned =
       view.type == ComponentType::U8 || view.type == ComponentType::U16 || view.type == ComponentType::U32;
@@ -97,8 +97,7 @@ void NormaliseTangents(Context& context, std::vector<glm::vec4>& tangents, const
     const float squared = tangent.x * tangent.x + tangent.y * tangent.y + tangent.z * tangent.z;
     if (!(std::fabs(squared - 1.0f) <= kTolerance)) {
       const bool has_direction = squared > 0.0f && std::isfinite(squared);
-      const glm::vec3 direction =
-          has_direction ? glm::vec3(tangent) / std::sqrt(squared) : glm::vec3(1.0f, 0.0f, 0.0f);
+      const glm::vec3 direction = has_direction ? glm::vec3(tangent) / std::sqrt(squared) : glm::vec3(1.0f, 0.0f, 0.0f);
       zero += !has_direction;
       tangent = glm::vec4(direction, tangent.w);
     }
@@ -155,8 +154,8 @@ void ReadAttributes(Context& context, AttributeSource& source, const std::map<st
   for (int set = 0; set < kMaxSets; ++set) {
     const std::string joints = "JOINTS_" + std::to_string(set), weights = "WEIGHTS_" + std::to_string(set);
     if (source.Has(joints) != source.Has(weights)) {
-      context.Warn(place, "ignored: " + (source.Has(joints) ? joints + " without " + weights
-                                                            : weights + " without " + joints));
+      context.Warn(
+          place, "ignored: " + (source.Has(joints) ? joints + " without " + weights : weights + " without " + joints));
     } else if (source.Has(joints)) {
       out.joints.push_back(source.Joints(joints));
       out.weights.push_back(source.Weights(weights));
@@ -203,9 +202,7 @@ std::optional<DracoMesh> TryDraco(Context& context, BufferStore& buffers, const 
   } catch (const Error& error) {
     if (context.IsRequired(kDraco) || error.code() == ErrorCode::OutOfMemory) throw;
     const auto& accessors = context.document.core.accessors;
-    const auto backed = [&](int accessor) {
-      return accessors[static_cast<std::size_t>(accessor)].bufferView >= 0;
-    };
+    const auto backed = [&](int accessor) { return accessors[static_cast<std::size_t>(accessor)].bufferView >= 0; };
     bool has_plain = primitive.indices < 0 || backed(primitive.indices);
     for (const auto& [semantic, accessor] : primitive.attributes) has_plain = has_plain && backed(accessor);
     if (!has_plain) throw;

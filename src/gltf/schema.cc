@@ -137,8 +137,8 @@ class Checker {
     SizeAt(o, "byteOffset", p);
     RequireSize(o, "byteLength", p);
     const auto stride = SizeAt(o, "byteStride", p);
-    if (stride && (*stride < 4 || *stride > 252 || *stride % 4 != 0)) {
-      Fail(Place(p, "byteStride"), std::to_string(*stride) + " is not a multiple of 4 in [4, 252]");
+    if (stride && (*stride > 252 || *stride % 4 != 0)) {  // 0, which some exporters write, is "tightly packed"
+      Fail(Place(p, "byteStride"), std::to_string(*stride) + " is not a multiple of 4 up to 252");
     }
   }
 

@@ -102,8 +102,8 @@ std::optional<Bytes> DecodeDataUri(std::string_view uri) {
 
 bool HasScheme(std::string_view uri) {
   std::size_t i = 0;
-  while (i < uri.size() && (std::isalnum(static_cast<unsigned char>(uri[i])) || uri[i] == '+' || uri[i] == '-' ||
-                            uri[i] == '.')) {
+  while (i < uri.size() &&
+         (std::isalnum(static_cast<unsigned char>(uri[i])) || uri[i] == '+' || uri[i] == '-' || uri[i] == '.')) {
     ++i;
   }
   return i >= 2 && i < uri.size() && uri[i] == ':' && std::isalpha(static_cast<unsigned char>(uri[0]));

@@ -1,5 +1,6 @@
 // What passes between facet and its OpenImageIO module (facet_oiio.so): plain C, so that neither exceptions nor a
-// library's types cross. The module keeps OpenImageIO's 261 shared libraries out of every start that needs none of them.
+// library's types cross. The module keeps OpenImageIO's 261 shared libraries out of every start that needs none of
+// them.
 #pragma once
 
 #include <stddef.h>

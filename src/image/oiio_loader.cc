@@ -88,9 +88,9 @@ Module Open() {
   for (char& c : trouble) {
     if (c == '\n') c = ' ';
   }
-  throw Error(ErrorCode::MissingModule,
-              std::string("the module ") + kFileName + (trouble.empty() ? " is not installed" : " does not open: " + trouble),
-              {}, std::string("build facet with OpenImageIO, or set FACET_MODULE_PATH to the folder of ") + kFileName);
+  const std::string state = trouble.empty() ? " is not installed" : " does not open: " + trouble;
+  throw Error(ErrorCode::MissingModule, std::string("the module ") + kFileName + state, {},
+              std::string("build facet with OpenImageIO, or set FACET_MODULE_PATH to the folder of ") + kFileName);
 }
 
 Module Get() {

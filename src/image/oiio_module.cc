@@ -1,6 +1,7 @@
 // The OpenImageIO module: see oiio_abi.h. The only file that includes OpenImageIO.
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
+#include <dlfcn.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -12,6 +13,7 @@
 #include <new>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "facet/image.h"
@@ -139,6 +141,20 @@ void Unassociate(FacetOiioPicture& picture) {
   if (picture.type == static_cast<int>(ChannelType::U16)) integers(static_cast<std::uint16_t*>(picture.pixels), 0xFFFF);
 }
 
+// OpenImageIO 2.4 multiplies WebP's colours by alpha in 8 bits whatever it is asked for, and what lay under alpha 0 is
+// lost; glTF ignores alpha in most places, so the colours matter. libwebp, which OpenImageIO has loaded already, gives
+// them as they are. False when it cannot (an animation, another version): OpenImageIO reads the picture then.
+bool DecodeStraightWebP(std::string_view bytes, const FacetOiioPicture& picture) {
+  using DecodeInto = std::uint8_t* (*)(const std::uint8_t*, std::size_t, std::uint8_t*, std::size_t, int);
+  void* library = ::dlopen("libwebp.so.7", RTLD_NOW | RTLD_NOLOAD);
+  if (!library) return false;
+  const auto decode = reinterpret_cast<DecodeInto>(::dlsym(library, "WebPDecodeRGBAInto"));
+  const bool done = decode && decode(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size(),
+                                     static_cast<std::uint8_t*>(picture.pixels), picture.size, picture.width * 4);
+  ::dlclose(library);  // its count of users, not the library
+  return done;
+}
+
 void Decode(std::string_view bytes, const std::string& name, int max_side, std::uint64_t max_pixels,
             FacetOiioPicture* picture) {
   const std::string extension = ExtensionOf(bytes, name);
@@ -188,6 +204,7 @@ void Decode(std::string_view bytes, const std::string& name, int max_side, std::
   picture->size = width * height * static_cast<std::size_t>(picture->channels) * facet::SizeOf(type);
   picture->pixels = std::malloc(picture->size);
   if (!picture->pixels) throw std::bad_alloc();
+  if (extension == "webp" && picture->channels == 4 && DecodeStraightWebP(bytes, *picture)) return;
   if (!input->read_image(0, 0, 0, picture->channels, TypeOf(type), picture->pixels)) {
     throw Failure{FACET_OIIO_INVALID_INPUT, "broken " + extension + " picture: " + OneLine(input->geterror())};
   }

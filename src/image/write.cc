@@ -1,3 +1,7 @@
+// WriteImage of facet/film.h. PNG is written here, all else by OpenImageIO. OpenEXR gets linear light as floats with
+// the colours multiplied by alpha, as that format wants them (8 and 16 bits are decoded first); Radiance gets linear
+// light; TIFF keeps the numbers, alpha straight; the others 8 bits. A format that gets no alpha takes opaque pictures
+// only.
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -28,7 +32,8 @@ struct Format {
 constexpr Format kFormats[] = {
     {".png", Holds::Png},           {".exr", Holds::LinearPremultiplied}, {".hdr", Holds::LinearOpaque},
     {".tif", Holds::Anything},      {".tiff", Holds::Anything},           {".jpg", Holds::BytesOpaque},
-    {".jpeg", Holds::BytesOpaque},  {".webp", Holds::Bytes},              {".bmp", Holds::Bytes},
+    // OpenImageIO 2.4 divides the colours of WebP by alpha, whatever it is told.
+    {".jpeg", Holds::BytesOpaque},  {".webp", Holds::BytesOpaque},        {".bmp", Holds::BytesOpaque},
     {".tga", Holds::Bytes},         {".ppm", Holds::BytesOpaque},
 };
 
@@ -62,7 +67,7 @@ bool IsOpaque(const Image& image) {
 
 Image Opaque(const Image& image, const std::filesystem::path& path) {
   if (!IsOpaque(image)) {
-    throw Error(ErrorCode::InvalidUsage, "this format holds no alpha, and the picture is transparent in places",
+    throw Error(ErrorCode::InvalidUsage, "no alpha is written to this format, and the picture is transparent in places",
                 path.string(), "give the picture a background, or write .png or .exr");
   }
   return HasAlpha(image) ? WithChannels(image, image.channels - 1) : image;

@@ -22,8 +22,9 @@ HWY_INLINE Vec3<T> PrefilteredRadiance(const EnvironmentMap& map, Vec3<T> direct
   const TablePosition<T> at = PositionInTable(perceptual_roughness * T(last), last);
   const Vec2<T> uv = OctahedronFromDirection(direction);
   const auto level = [&](IndexOf<T> k) HWY_ATTR {
-    return SampleOctahedron<T>(map.texel_data, Fetch<T>(map.level_size, k), FetchIndex(map.level_stride, k),
-                               FetchIndex(map.level_offset, k), uv);
+    const T size = Fetch<T>(map.level_size, k);
+    const IndexOf<T> row = TruncateToIndex(size + T(1.0f)) * IndexOf<T>(4);
+    return SampleOctahedron<T>(map.texel_data, size, row, FetchIndex(map.level_offset, k), uv);
   };
   return Mix(level(at.index), level(at.index + IndexOf<T>(1)), at.fraction);
 }
@@ -32,8 +33,8 @@ HWY_INLINE Vec3<T> PrefilteredRadiance(const EnvironmentMap& map, Vec3<T> direct
 template <class T>
 HWY_INLINE Vec3<T> IrradianceOverPi(const EnvironmentMap& map, Vec3<T> normal) {
   const std::int32_t size = map.irradiance.size;
-  const std::int32_t origin = map.irradiance.offset + (size + 3) * 4;
-  return SampleOctahedron<T>(map.texel_data, T(static_cast<float>(size)), IndexOf<T>(size + 2), IndexOf<T>(origin),
+  return SampleOctahedron<T>(map.texel_data, T(static_cast<float>(size)),
+                             IndexOf<T>((size + 1) * 4), IndexOf<T>(map.irradiance.offset),
                              OctahedronFromDirection(normal));
 }
 

@@ -17,16 +17,27 @@ constexpr double kPiDouble = 3.14159265358979324;
 
 using Level = EnvironmentMap::Level;
 
-std::int32_t SquareFloats(std::int32_t size) { return (size + 2) * (size + 2) * 4; }
+float* RowOf(EnvironmentMap* map, const Level& level, std::int32_t row) {
+  return map->texels.data() + level.offset + std::ptrdiff_t(row) * (level.size + 1) * 4;
+}
 
-std::int32_t OriginOf(const Level& level) { return level.offset + (level.size + 3) * 4; }
+// The chain: ever smaller squares that lobes are read from. Other than an EnvironmentMap's, these have a texel in the
+// middle of each cell, so that a texel is the mean of four of the next larger square, and a border of one texel, which
+// holds the neighbours across the fold. The fourth number of a texel is its solid angle.
+struct Cells {
+  std::int32_t size = 0;
+  std::int32_t offset = 0;
 
-float* RowOf(float* texels, const Level& level, std::int32_t row) {
-  return texels + OriginOf(level) + std::ptrdiff_t(row) * (level.size + 2) * 4;
+  std::int32_t Floats() const { return (size + 2) * (size + 2) * 4; }
+  std::int32_t Origin() const { return offset + (size + 3) * 4; }  // of texel (0, 0)
+};
+
+float* RowOf(float* texels, const Cells& cells, std::int32_t row) {
+  return texels + cells.Origin() + std::ptrdiff_t(row) * (cells.size + 2) * 4;
 }
 
 // Copies each border texel from its neighbour across the fold: beyond an edge the map goes on mirrored along that edge.
-void FillBorder(float* texels, const Level& level) {
+void FillBorder(float* texels, const Cells& level) {
   const std::int32_t n = level.size;
   const auto at = [&](std::int32_t i, std::int32_t j) { return RowOf(texels, level, j) + i * 4; };
   const auto copy = [](const float* from, float* to) { std::copy(from, from + 4, to); };
@@ -74,8 +85,21 @@ std::vector<float> HalvePicture(const std::vector<float>& in, std::int32_t width
   return out;
 }
 
-// Means of 2 x 2 texels weighted by solid angle, which is the fourth number and is added up.
-void HalveSquare(float* texels, const Level& from, const Level& to) {
+// The largest square: means of the four texels around each cell.
+void FillCells(EnvironmentMap* map, const Level& from, float* texels, const Cells& to) {
+  ParallelFor(std::size_t(to.size), 32, [&](std::size_t begin, std::size_t end) {
+    for (auto y = std::int32_t(begin); y < std::int32_t(end); ++y) {
+      const float* top = RowOf(map, from, y);
+      const float* bottom = RowOf(map, from, y + 1);
+      float* out = RowOf(texels, to, y);
+      for (std::int32_t i = 0; i < 4 * to.size; ++i) out[i] = 0.25f * ((top[i] + top[i + 4]) + (bottom[i] + bottom[i + 4]));
+    }
+  });
+  FillBorder(texels, to);
+}
+
+// Means of 2 x 2 texels weighted by solid angle, which is added up.
+void HalveSquare(float* texels, const Cells& from, const Cells& to) {
   ParallelFor(std::size_t(to.size), 32, [&](std::size_t begin, std::size_t end) {
     for (auto y = std::int32_t(begin); y < std::int32_t(end); ++y) {
       const float* top = RowOf(texels, from, 2 * y);
@@ -97,9 +121,10 @@ void HalveSquare(float* texels, const Level& from, const Level& to) {
 
 // Directions about +Z distributed as GGX reflects light when view and normal are +Z, each with the square of `chain`
 // whose texels are as large as its share of the lobe: filtered importance sampling (Krivanek and Colbert, 2008,
-// Real-time Shading with Filtered Importance Sampling, equation 12; their bias of one level is kept). Half vectors are
-// taken from GGX's distribution at Hammersley's points; a direction's weight is n_dot_l (Karis, 2013).
-std::vector<LobeSample> MakeLobe(double alpha, int count, const std::vector<Level>& chain) {
+// Real-time Shading with Filtered Importance Sampling, equation 12; without their bias of one level, because bilinear
+// reading makes neighbouring samples overlap anyway, and the bias cost 8 % of a small lamp's peak). Half vectors are taken
+// from GGX's distribution at Hammersley's points; a direction's weight is n_dot_l (Karis, 2013).
+std::vector<LobeSample> MakeLobe(double alpha, int count, const std::vector<Cells>& chain) {
   std::vector<LobeSample> samples;
   const double base_solid_angle = 4.0 * kPiDouble / (double(chain[0].size) * double(chain[0].size));
   double total = 0.0;
@@ -114,7 +139,7 @@ std::vector<LobeSample> MakeLobe(double alpha, int count, const std::vector<Leve
     const double sin_l = 2.0 * std::sqrt(cos2 * (1.0 - cos2));
     const double t = cos2 * (alpha * alpha - 1.0) + 1.0;
     const double pdf = alpha * alpha / (kPiDouble * t * t) * 0.25;  // D n_dot_h / (4 v_dot_h), where v = n
-    const double texels = 4.0 / (count * pdf) / base_solid_angle;   // 4: the bias
+    const double texels = 1.0 / (count * pdf) / base_solid_angle;
     std::size_t level = 0;
     // sqrt(2) below the next level's edge length rounds the level to the nearest.
     for (double edge2 = 2.0; level + 1 < chain.size() && texels > edge2; edge2 *= 4.0) ++level;
@@ -124,7 +149,7 @@ std::vector<LobeSample> MakeLobe(double alpha, int count, const std::vector<Leve
     s.z = static_cast<float>(n_dot_l);
     s.weight = static_cast<float>(n_dot_l);
     s.size = chain[level].size;
-    s.origin = OriginOf(chain[level]);
+    s.origin = chain[level].Origin();
     total += n_dot_l;
     samples.push_back(s);
   }
@@ -132,11 +157,11 @@ std::vector<LobeSample> MakeLobe(double alpha, int count, const std::vector<Leve
   return samples;
 }
 
-std::vector<SourceTexel> MakeSource(const float* texels, const Level& level) {
+std::vector<SourceTexel> MakeSource(const float* texels, const Cells& level) {
   std::vector<SourceTexel> source;
   source.reserve(std::size_t(level.size) * std::size_t(level.size));
   for (std::int32_t j = 0; j < level.size; ++j) {
-    const float* row = texels + OriginOf(level) + std::ptrdiff_t(j) * (level.size + 2) * 4;
+    const float* row = texels + level.Origin() + std::ptrdiff_t(j) * (level.size + 2) * 4;
     for (std::int32_t i = 0; i < level.size; ++i) {
       const double u = 2.0 * (i + 0.5) / level.size - 1.0;
       const double v = 2.0 * (j + 0.5) / level.size - 1.0;
@@ -153,9 +178,9 @@ std::vector<SourceTexel> MakeSource(const float* texels, const Level& level) {
 }
 
 // Levels below kFirstConvolved are sampled, the others are rough enough to be summed over every texel of a small map.
-constexpr int kFirstConvolved = 5;
+constexpr int kFirstConvolved = 4;
 constexpr std::int32_t kNominalSize[EnvironmentMap::kLevels] = {0, 256, 128, 64, 64, 32, 32, 32, 32};
-constexpr int kSampleCount[kFirstConvolved] = {0, 32, 64, 64, 128};
+constexpr int kSampleCount[kFirstConvolved] = {0, 48, 96, 192};
 constexpr std::int32_t kSourceSize = 64;
 constexpr std::int32_t kSmallestBase = 64;
 constexpr std::int32_t kSmallestOfChain = 8;  // coarser squares bend too much for bilinear reading
@@ -165,7 +190,7 @@ double AlphaOfLevel(int level) {
   return perceptual_roughness * perceptual_roughness;
 }
 
-void FillSampledLevels(EnvironmentMap* map, const std::vector<float>& chain_texels, const std::vector<Level>& chain) {
+void FillSampledLevels(EnvironmentMap* map, const std::vector<float>& chain_texels, const std::vector<Cells>& chain) {
   std::array<std::vector<LobeSample>, kFirstConvolved> lobes;
   struct Row {
     int level;
@@ -174,38 +199,41 @@ void FillSampledLevels(EnvironmentMap* map, const std::vector<float>& chain_texe
   std::vector<Row> rows;
   for (int k = 1; k < kFirstConvolved; ++k) {
     lobes[k] = MakeLobe(AlphaOfLevel(k), kSampleCount[k], chain);
-    for (std::int32_t row = 0; row < map->levels[k].size; ++row) rows.push_back({k, row});
+    for (std::int32_t row = 0; row <= map->levels[k].size; ++row) rows.push_back({k, row});
   }
   ParallelFor(rows.size(), 8, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const auto& lobe = lobes[rows[i].level];
       const Level& level = map->levels[rows[i].level];
       FilterLobeRow({chain_texels.data(), lobe.data(), std::int32_t(lobe.size()), level.size, rows[i].row,
-                     RowOf(map->texels.data(), level, rows[i].row)});
+                     RowOf(map, level, rows[i].row)});
     }
   });
-  for (int k = 1; k < kFirstConvolved; ++k) FillBorder(map->texels.data(), map->levels[k]);
 }
 
+// The rough levels and, as the last of them, the irradiance. Squares of one size share the sum over the source.
 void FillConvolvedLevels(EnvironmentMap* map, const std::vector<SourceTexel>& source) {
-  constexpr int kCount = EnvironmentMap::kLevels - kFirstConvolved;
-  static_assert(kCount + 1 <= kMaxConvolutions && EnvironmentMap::kIrradianceSize == 32);
-  const Level* squares[kCount + 1];
-  for (int k = 0; k < kCount; ++k) squares[k] = &map->levels[kFirstConvolved + k];
-  squares[kCount] = &map->irradiance;
-  float* texels = map->texels.data();
-  ParallelFor(EnvironmentMap::kIrradianceSize, 2, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t row = begin; row < end; ++row) {
-      ConvolveRowTask task{source.data(), std::int32_t(source.size()), kCount + 1, {},
-                           EnvironmentMap::kIrradianceSize, std::int32_t(row), {}};
-      for (int k = 0; k <= kCount; ++k) {
-        task.alpha[k] = k < kCount ? static_cast<float>(AlphaOfLevel(kFirstConvolved + k)) : 0.0f;
-        task.out[k] = RowOf(texels, *squares[k], std::int32_t(row));
+  constexpr int kCount = EnvironmentMap::kLevels - kFirstConvolved + 1;
+  const Level* squares[kCount];
+  float alpha[kCount];
+  for (int k = 0; k < kCount; ++k) {
+    const bool is_irradiance = k + 1 == kCount;
+    squares[k] = is_irradiance ? &map->irradiance : &map->levels[kFirstConvolved + k];
+    alpha[k] = is_irradiance ? 0.0f : static_cast<float>(AlphaOfLevel(kFirstConvolved + k));
+  }
+  for (int first = 0, last = 0; first < kCount; first = last) {
+    while (last < kCount && last - first < kMaxConvolutions && squares[last]->size == squares[first]->size) ++last;
+    ParallelFor(std::size_t(squares[first]->size) + 1, 2, [&](std::size_t begin, std::size_t end) {
+      for (auto row = std::int32_t(begin); row < std::int32_t(end); ++row) {
+        ConvolveRowTask task{source.data(), std::int32_t(source.size()), last - first, {}, squares[first]->size, row, {}};
+        for (int k = first; k < last; ++k) {
+          task.alpha[k - first] = alpha[k];
+          task.out[k - first] = RowOf(map, *squares[k], row);
+        }
+        ConvolveRow(task);
       }
-      ConvolveRow(task);
-    }
-  });
-  for (const Level* square : squares) FillBorder(texels, *square);
+    });
+  }
 }
 
 }  // namespace
@@ -237,38 +265,36 @@ std::shared_ptr<const EnvironmentMap> PrefilterEnvironment(const Image& equirect
   std::int32_t floats = 0;
   const auto place = [&floats](std::int32_t size) {
     const Level level{size, floats};
-    floats += SquareFloats(size);
+    floats += (size + 1) * (size + 1) * 4;
     return level;
   };
   for (int k = 0; k < EnvironmentMap::kLevels; ++k) {
-    map->levels[k] = place(k == 0 ? base : std::min(base, kNominalSize[k]));
-    map->level_stride[k] = map->levels[k].size + 2;
-    map->level_offset[k] = OriginOf(map->levels[k]);
+    map->levels[k] = place(k == 0 ? base : std::min(base / 2, kNominalSize[k]));
+    map->level_offset[k] = map->levels[k].offset;
     map->level_size[k] = static_cast<float>(map->levels[k].size);
   }
   map->irradiance = place(EnvironmentMap::kIrradianceSize);
   map->texels.assign(std::size_t(floats), 0.0f);
   map->texel_data = map->texels.data();
 
-  // The chain of ever smaller squares that the lobes are read from; its first is level 0.
-  std::vector<Level> chain;
+  ParallelFor(std::size_t(base) + 1, 8, [&](std::size_t begin, std::size_t end) {
+    for (auto row = std::int32_t(begin); row < std::int32_t(end); ++row) {
+      FillOctahedronRow({picture.data(), width, height, base, row, RowOf(map.get(), map->levels[0], row)});
+    }
+  });
+
+  std::vector<Cells> chain;
   std::int32_t chain_floats = 0;
   for (std::int32_t size = base; size >= kSmallestOfChain; size /= 2) {
     chain.push_back({size, chain_floats});
-    chain_floats += SquareFloats(size);
+    chain_floats += chain.back().Floats();
   }
   std::vector<float> chain_texels(std::size_t(chain_floats), 0.0f);
-  ParallelFor(std::size_t(base), 8, [&](std::size_t begin, std::size_t end) {
-    for (auto row = std::int32_t(begin); row < std::int32_t(end); ++row) {
-      FillOctahedronRow({picture.data(), width, height, base, row, RowOf(chain_texels.data(), chain[0], row)});
-    }
-  });
-  FillBorder(chain_texels.data(), chain[0]);
+  FillCells(map.get(), map->levels[0], chain_texels.data(), chain[0]);
   for (std::size_t k = 1; k < chain.size(); ++k) HalveSquare(chain_texels.data(), chain[k - 1], chain[k]);
-  std::copy_n(chain_texels.begin(), SquareFloats(base), map->texels.begin());
 
   FillSampledLevels(map.get(), chain_texels, chain);
-  const auto source_level = std::find_if(chain.begin(), chain.end(), [](const Level& l) { return l.size == kSourceSize; });
+  const auto source_level = std::find_if(chain.begin(), chain.end(), [](const Cells& c) { return c.size == kSourceSize; });
   FACET_CHECK(source_level != chain.end());
   FillConvolvedLevels(map.get(), MakeSource(chain_texels.data(), *source_level));
   return map;

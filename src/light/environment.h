@@ -6,8 +6,10 @@
 //
 // Maps are octahedral (Praun and Hoppe, 1999, Spherical Parametrization and Remeshing; Engelhardt and Dachsbacher, 2008,
 // Octahedron Environment Maps): a direction d is divided by |x| + |y| + |z|; its x and z are the square's coordinates,
-// and where y < 0 the corners are folded over. Each square has a border of one texel holding its neighbours across the
-// fold, so that a bilinear lookup is four plain reads.
+// and where y < 0 the corners are folded over. Texels stand at the nodes of a grid that reaches from edge to edge, not in
+// the middle of its cells: the octahedron's edges, where the map has a crease, then run through texels, and bilinear
+// reading is exact there (half a texel off, a 32 x 32 map of half a sky shows 1.6 % errors along them); nor are borders
+// needed.
 #pragma once
 
 #include <cstddef>
@@ -23,18 +25,18 @@ struct EnvironmentMap {
   static constexpr int kLevels = 9;
   static constexpr int kIrradianceSize = 32;
 
-  // One octahedral square: texel (i, j) of [-1, size] stands at texels[offset + ((j + 1) * (size + 2) + i + 1) * 4].
+  // One octahedral square of size x size cells: texel (i, j), both in [0, size], stands at
+  // texels[offset + (j * (size + 1) + i) * 4].
   struct Level {
-    std::int32_t size = 0;
+    std::int32_t size = 0;  // a power of two
     std::int32_t offset = 0;
   };
 
   // Level k is the radiance that a mirror of perceptual roughness k / (kLevels - 1) shows: GGX-prefiltered with view and
   // normal along the reflection (Karis, 2013, Real Shading in Unreal Engine 4). Level 0 is the picture itself.
   Level levels[kLevels];
-  // For lanes: size and offset of each level, as they are gathered.
-  std::int32_t level_stride[kLevels] = {};
-  std::int32_t level_offset[kLevels] = {};  // of texel (0, 0)
+  // The same for lanes, as they are gathered.
+  std::int32_t level_offset[kLevels] = {};
   float level_size[kLevels] = {};
   // Irradiance divided by pi: the mean of radiance, weighted by the cosine.
   Level irradiance;

@@ -10,14 +10,31 @@ HWY_BEFORE_NAMESPACE();
 namespace facet {
 namespace HWY_NAMESPACE {
 
-// Texels first .. first + lanes of a row. The squares' sizes are multiples of the lane count.
-HWY_INLINE void StoreTexels(Vec3<Float> color, Float fourth, float* out) {
+// Coordinates in [0, 1]^2 of the texels first, first + 1 ... of a row; beyond its end those of the last.
+HWY_INLINE Vec2<Float> NodesOfRow(std::int32_t first, std::int32_t row, std::int32_t size) {
+  const Float scale = Float(1.0f / static_cast<float>(size));  // exact: a power of two
+  return {Min(ToFloat(LaneIndex() + Int(first)) * scale, Float(1.0f)), Float(static_cast<float>(row)) * scale};
+}
+
+// Reads a square of the chain: texels in the middle of cells, a border of one around them.
+HWY_INLINE Vec3<Float> SampleCells(const float* texels, std::int32_t size, std::int32_t origin, Vec2<Float> uv) {
+  // Columns and rows are counted from the border, so that nothing is negative.
+  const Float scale = Float(static_cast<float>(size));
+  const std::int32_t row = (size + 2) * 4;
+  return SampleTexels<Float>(texels, Clamp(uv.x * scale, Float(0.0f), scale) + Float(0.5f),
+                             Clamp(uv.y * scale, Float(0.0f), scale) + Float(0.5f), scale, Int(row),
+                             Int(origin - row - 4));
+}
+
+// The lanes that are texels of the row; `size` is its last.
+HWY_INLINE void StoreTexels(Vec3<Float> color, Float fourth, std::int32_t first, std::int32_t size, float* row) {
   float r[kMaxLanes], g[kMaxLanes], b[kMaxLanes], a[kMaxLanes];
   Store(color.x, r);
   Store(color.y, g);
   Store(color.z, b);
   Store(fourth, a);
-  for (std::size_t lane = 0; lane < LaneCount(); ++lane) {
+  float* out = row + 4 * first;
+  for (std::size_t lane = 0; lane < LaneCount() && first + static_cast<std::int32_t>(lane) <= size; ++lane) {
     out[4 * lane] = r[lane];
     out[4 * lane + 1] = g[lane];
     out[4 * lane + 2] = b[lane];
@@ -26,35 +43,31 @@ HWY_INLINE void StoreTexels(Vec3<Float> color, Float fourth, float* out) {
 }
 
 void FillOctahedronRow(const OctahedronRowTask& task) {
-  const float size = static_cast<float>(task.size);
-  const Float scale = Float(1.0f / size);  // exact: a power of two
-  for (std::int32_t first = 0; first < task.size; first += static_cast<std::int32_t>(LaneCount())) {
-    const Float column = ToFloat(LaneIndex() + Int(first));
+  const float cell = 1.0f / static_cast<float>(task.size);
+  for (std::int32_t first = 0; first <= task.size; first += static_cast<std::int32_t>(LaneCount())) {
+    const Vec2<Float> uv = NodesOfRow(first, task.row, task.size);
     Vec3<Float> sum{};
     for (int s = 0; s < 4; ++s) {
-      const Vec2<Float> uv = {(column + Float(s & 1 ? 0.75f : 0.25f)) * scale,
-                              (Float(static_cast<float>(task.row)) + Float(s & 2 ? 0.75f : 0.25f)) * scale};
-      sum += SampleEquirectangular(task.picture, task.picture_width, task.picture_height, DirectionFromOctahedron(uv));
+      const Vec2<Float> offset = {Float(s & 1 ? 0.25f * cell : -0.25f * cell), Float(s & 2 ? 0.25f * cell : -0.25f * cell)};
+      sum += SampleEquirectangular(task.picture, task.picture_width, task.picture_height,
+                                   DirectionFromOctahedron(uv + offset));
     }
-    // A texel of area dx dz of the octahedron's square subtends dx dz / |p|^3, p the point on the octahedron.
-    const Float x = Abs((column + Float(0.5f)) * scale * Float(2.0f) - Float(1.0f));
-    const Float z = Abs((Float(static_cast<float>(task.row)) + Float(0.5f)) * scale * Float(2.0f) - Float(1.0f));
+    // An area dx dz of the octahedron's square subtends dx dz / |p|^3, p the point on the octahedron.
+    const Float x = Abs(uv.x * Float(2.0f) - Float(1.0f));
+    const Float z = Abs(uv.y * Float(2.0f) - Float(1.0f));
     const Float y = Float(1.0f) - x - z;
     const Mask below = y < Float(0.0f);
     const Float px = Select(below, Float(1.0f) - z, x);
     const Float pz = Select(below, Float(1.0f) - x, z);
     const Float length2 = px * px + y * y + pz * pz;
-    const Float solid_angle = Float(4.0f) * scale * scale / (length2 * Sqrt(length2));
-    StoreTexels(sum * Float(0.25f), solid_angle, task.out + 4 * first);
+    const Float solid_angle = Float(4.0f * cell * cell) / (length2 * Sqrt(length2));
+    StoreTexels(sum * Float(0.25f), solid_angle, first, task.size, task.out);
   }
 }
 
 void FilterLobeRow(const LobeRowTask& task) {
-  const Float scale = Float(1.0f / static_cast<float>(task.size));
-  for (std::int32_t first = 0; first < task.size; first += static_cast<std::int32_t>(LaneCount())) {
-    const Vec2<Float> uv = {(ToFloat(LaneIndex() + Int(first)) + Float(0.5f)) * scale,
-                            (Float(static_cast<float>(task.row)) + Float(0.5f)) * scale};
-    const Vec3<Float> n = DirectionFromOctahedron(uv);
+  for (std::int32_t first = 0; first <= task.size; first += static_cast<std::int32_t>(LaneCount())) {
+    const Vec3<Float> n = DirectionFromOctahedron(NodesOfRow(first, task.row, task.size));
     // Duff et al., 2017, Building an Orthonormal Basis, Revisited.
     const Float sign = CopySign(Float(1.0f), n.z);
     const Float a = Float(-1.0f) / (sign + n.z);
@@ -66,20 +79,16 @@ void FilterLobeRow(const LobeRowTask& task) {
       const LobeSample& sample = task.samples[i];
       const Vec3<Float> direction = tangent * Float(sample.x) + bitangent * Float(sample.y) + n * Float(sample.z);
       const Vec3<Float> radiance =
-          SampleOctahedron<Float>(task.texels, Float(static_cast<float>(sample.size)), Int(sample.size + 2),
-                                  Int(sample.origin), OctahedronFromDirection(direction));
+          SampleCells(task.texels, sample.size, sample.origin, OctahedronFromDirection(direction));
       sum += radiance * Float(sample.weight);
     }
-    StoreTexels(sum, Float(0.0f), task.out + 4 * first);
+    StoreTexels(sum, Float(0.0f), first, task.size, task.out);
   }
 }
 
 void ConvolveRow(const ConvolveRowTask& task) {
-  const Float scale = Float(1.0f / static_cast<float>(task.size));
-  for (std::int32_t first = 0; first < task.size; first += static_cast<std::int32_t>(LaneCount())) {
-    const Vec2<Float> uv = {(ToFloat(LaneIndex() + Int(first)) + Float(0.5f)) * scale,
-                            (Float(static_cast<float>(task.row)) + Float(0.5f)) * scale};
-    const Vec3<Float> n = DirectionFromOctahedron(uv);
+  for (std::int32_t first = 0; first <= task.size; first += static_cast<std::int32_t>(LaneCount())) {
+    const Vec3<Float> n = DirectionFromOctahedron(NodesOfRow(first, task.row, task.size));
     Vec3<Float> sum[kMaxConvolutions] = {};
     Float norm[kMaxConvolutions] = {};
     for (std::int32_t i = 0; i < task.source_count; ++i) {
@@ -98,7 +107,7 @@ void ConvolveRow(const ConvolveRowTask& task) {
       }
     }
     for (std::int32_t k = 0; k < task.count; ++k) {
-      StoreTexels(sum[k] / norm[k], Float(0.0f), task.out[k] + 4 * first);
+      StoreTexels(sum[k] / norm[k], Float(0.0f), first, task.size, task.out[k]);
     }
   }
 }

@@ -1,17 +1,18 @@
-// The lane work of preparing an environment. Layout of octahedral squares: see environment.h.
+// The lane work of preparing an environment. Rows of octahedral squares are those of EnvironmentMap::Level: size + 1
+// texels; `row` is in [0, size].
 #pragma once
 
 #include <cstdint>
 
 namespace facet {
 
-// Row `row` of a square of `size` texels, from an equirectangular picture of 4-float pixels; 2 x 2 samples a texel. The
-// fourth number of each texel is its solid angle.
+// A row from an equirectangular picture of 4-float pixels; 2 x 2 samples a texel. The fourth number of each texel is the
+// solid angle that a cell has there.
 struct OctahedronRowTask {
   const float* picture;
   std::int32_t picture_width, picture_height;
   std::int32_t size, row;
-  float* out;  // of texel (0, row)
+  float* out;
 };
 void FillOctahedronRow(const OctahedronRowTask& task);
 
@@ -19,11 +20,13 @@ void FillOctahedronRow(const OctahedronRowTask& task);
 struct LobeSample {
   float x, y, z;
   float weight;          // they add up to 1
-  std::int32_t size;     // of the square that is read: a level whose texels are about as large as the sample's share
-  std::int32_t origin;   // of its texel (0, 0), in floats
+  // The square that is read, of cells about as large as the sample's share. Of the chain that environment.cc describes:
+  // size x size texels in the middle of cells, and a border of one texel.
+  std::int32_t size;
+  std::int32_t origin;  // of its texel (0, 0), in floats
 };
 
-// Row `row` of a square of `size` texels: for each texel's direction the weighted mean of `texels` over the lobe.
+// A row: for each texel's direction the weighted mean of the chain `texels` over the lobe.
 struct LobeRowTask {
   const float* texels;
   const LobeSample* samples;
@@ -42,7 +45,7 @@ struct SourceTexel {
 
 constexpr int kMaxConvolutions = 5;
 
-// Row `row` of up to five squares of `size` texels at once. Square k is the mean of the source, weighted by
+// The same row of up to five squares at once. Square k is the mean of the source, weighted by
 // n_dot_l D(h; alpha[k]) with h between n and l, or by n_dot_l alone where alpha[k] is 0.
 struct ConvolveRowTask {
   const SourceTexel* source;

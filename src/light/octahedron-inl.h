@@ -33,25 +33,21 @@ HWY_INLINE Vec3<T> DirectionFromOctahedron(Vec2<T> uv) {
   const T z = uv.y * T(2.0f) - T(1.0f);
   const T y = T(1.0f) - Abs(x) - Abs(z);
   const auto below = y < T(0.0f);
-  const Vec3<T> d = {Select(below, CopySign(T(1.0f) - Abs(z), x), x), y,
-                     Select(below, CopySign(T(1.0f) - Abs(x), z), z)};
+  const Vec3<T> d = {Select(below, (T(1.0f) - Abs(z)) * CopySign(T(1.0f), x), x), y,
+                     Select(below, (T(1.0f) - Abs(x)) * CopySign(T(1.0f), z), z)};
   return d * (T(1.0f) / Sqrt(Dot(d, d)));
 }
 
-// Bilinear between the four texels around uv in [0, 1]^2. `size`, `stride` (texels a row) and `origin` (of texel (0, 0),
-// in floats) may differ between lanes.
+// Bilinear between the four texels around column x and row y, both in [0, last + 1]. Texels are four floats; `row` is the
+// distance of rows and `offset` the place of the first texel, in floats; `last`, `row` and `offset` may differ between
+// lanes.
 template <class T>
-HWY_INLINE Vec3<T> SampleOctahedron(const float* texels, T size, IndexOf<T> stride, IndexOf<T> origin, Vec2<T> uv) {
-  // Texel centres lie at (i + 0.5) / size; x and y are in [-0.5, size - 0.5], their floors in [-1, size - 1].
-  const T x = Clamp(uv.x * size - T(0.5f), T(-0.5f), size - T(0.5f));
-  const T y = Clamp(uv.y * size - T(0.5f), T(-0.5f), size - T(0.5f));
-  const T x0 = Floor(x);
-  const T y0 = Floor(y);
+HWY_INLINE Vec3<T> SampleTexels(const float* texels, T x, T y, T last, IndexOf<T> row, IndexOf<T> offset) {
+  const T x0 = Min(Floor(x), last);
+  const T y0 = Min(Floor(y), last);
   const T fx = x - x0;
   const T fy = y - y0;
-  const IndexOf<T> four = 4;
-  const IndexOf<T> row = stride * four;
-  const IndexOf<T> i00 = origin + TruncateToIndex(y0) * row + TruncateToIndex(x0) * four;
+  const IndexOf<T> i00 = offset + TruncateToIndex(y0) * row + TruncateToIndex(x0) * IndexOf<T>(4);
   const IndexOf<T> i01 = i00 + row;
   const T w00 = (T(1.0f) - fx) * (T(1.0f) - fy);
   const T w10 = fx * (T(1.0f) - fy);
@@ -62,6 +58,13 @@ HWY_INLINE Vec3<T> SampleOctahedron(const float* texels, T size, IndexOf<T> stri
            (Fetch<T>(texels + c, i01) * w01 + Fetch<T>(texels + c + 4, i01) * w11);
   };
   return {channel(0), channel(1), channel(2)};
+}
+
+// A square of `size` x `size` cells with texels at its nodes, at uv in [0, 1]^2.
+template <class T>
+HWY_INLINE Vec3<T> SampleOctahedron(const float* texels, T size, IndexOf<T> row, IndexOf<T> offset, Vec2<T> uv) {
+  return SampleTexels<T>(texels, Clamp(uv.x * size, T(0.0f), size), Clamp(uv.y * size, T(0.0f), size),
+                         size - T(1.0f), row, offset);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -27,11 +27,10 @@ double Polynomial(double x, const std::array<double, kCount>& c) {
 
 // 2^(n + f) for a whole n within int and |f| <= 0.51.
 double Exp2OfParts(double n, double f) {
-  constexpr std::array kRest = {0x1.62e42fefa39efp-1,  0x1.ebfbdff82c58fp-3,  0x1.c6b08d704a236p-5,
-                                0x1.3b2ab6fba4d46p-7,  0x1.5d87fe7848d21p-10, 0x1.430912f8c2fe2p-13,
-                                0x1.ffcbfeda9fdb2p-17, 0x1.62c020e4f86ddp-20, 0x1.b51ce0d97ee97p-24,
-                                0x1.e4d407e19bab6p-28, 0x1.01c6103ee6b0bp-31, 0x1.bdeac2a791191p-36,
-                                -0x1.f6c62b8028616p-36};
+  constexpr std::array kRest = {
+      0x1.62e42fefa39efp-1,  0x1.ebfbdff82c58fp-3,  0x1.c6b08d704a236p-5,  0x1.3b2ab6fba4d46p-7,  0x1.5d87fe7848d21p-10,
+      0x1.430912f8c2fe2p-13, 0x1.ffcbfeda9fdb2p-17, 0x1.62c020e4f86ddp-20, 0x1.b51ce0d97ee97p-24, 0x1.e4d407e19bab6p-28,
+      0x1.01c6103ee6b0bp-31, 0x1.bdeac2a791191p-36, -0x1.f6c62b8028616p-36};
   return std::ldexp(1.0 + f * Polynomial(f, kRest), static_cast<int>(n));
 }
 
@@ -127,20 +126,19 @@ ReducedAngle ReduceAngle(double magnitude) {
 }
 
 TwoDoubles SinOf(TwoDoubles a) {
-  constexpr std::array kRest = {-0x1.5555555555555p-3,  0x1.1111111110c7ap-7,  -0x1.a01a019e9eabap-13,
+  constexpr std::array kRest = {-0x1.5555555555555p-3, 0x1.1111111110c7ap-7,   -0x1.a01a019e9eabap-13,
                                 0x1.71de37ae51ef8p-19, -0x1.ae601d48b6234p-26, 0x1.5e10311908f4fp-33};
   const double z = a.high * a.high;
   return SumOfOrdered(a.high, a.high * z * Polynomial(z, kRest) + a.low * (1.0 - 0.5 * z));
 }
 
 TwoDoubles CosOf(TwoDoubles a) {
-  constexpr std::array kRest = {0x1.5555555555555p-5,  -0x1.6c16c16c168c8p-10, 0x1.a01a019f3790bp-16,
+  constexpr std::array kRest = {0x1.5555555555555p-5,   -0x1.6c16c16c168c8p-10, 0x1.a01a019f3790bp-16,
                                 -0x1.27e4fa01e1d62p-22, 0x1.1eeb56a7fb651p-29,  -0x1.90729ceec5ef3p-37};
   const double z = a.high * a.high;
   const double half_square = 0.5 * z;
   const double leading = 1.0 - half_square;
-  return SumOfOrdered(leading,
-                      ((1.0 - leading) - half_square) + (z * z * Polynomial(z, kRest) - a.high * a.low));
+  return SumOfOrdered(leading, ((1.0 - leading) - half_square) + (z * z * Polynomial(z, kRest) - a.high * a.low));
 }
 
 TwoDoubles SinOfReduced(const ReducedAngle& reduced, unsigned quarter_turns) {
@@ -151,9 +149,9 @@ TwoDoubles SinOfReduced(const ReducedAngle& reduced, unsigned quarter_turns) {
 
 // asin(s) / s - 1 for s^2 = z <= 1/4.
 double AsinRest(double z) {
-  constexpr std::array kRest = {0x1.5555555555555p-3, 0x1.33333333334b5p-4, 0x1.6db6db6d96bd7p-5, 0x1.f1c71c859e992p-6,
-                                0x1.6e8b9f75d5a0fp-6, 0x1.1c4f24bd9c0e8p-6, 0x1.c98bcadf0f791p-7, 0x1.7b36e2092e84fp-7,
-                                0x1.39c3a37b9c9d8p-7, 0x1.394383574da19p-7, 0x1.2029949025efcp-9, 0x1.6012a23088bcap-6,
+  constexpr std::array kRest = {0x1.5555555555555p-3,  0x1.33333333334b5p-4, 0x1.6db6db6d96bd7p-5, 0x1.f1c71c859e992p-6,
+                                0x1.6e8b9f75d5a0fp-6,  0x1.1c4f24bd9c0e8p-6, 0x1.c98bcadf0f791p-7, 0x1.7b36e2092e84fp-7,
+                                0x1.39c3a37b9c9d8p-7,  0x1.394383574da19p-7, 0x1.2029949025efcp-9, 0x1.6012a23088bcap-6,
                                 -0x1.65a8fca71e97dp-6, 0x1.fe5fabc17c7afp-6};
   return z * Polynomial(z, kRest);
 }
@@ -180,10 +178,18 @@ double Exp2(double x) {
 }
 
 double Exp(double x) {
-  constexpr std::array kRest = {0x1.p-1,               0x1.5555555555555p-3,  0x1.5555555555556p-5,
-                                0x1.111111111137ep-7,  0x1.6c16c16c15fefp-10, 0x1.a01a019ea908ap-13,
-                                0x1.a01a01a82049dp-16, 0x1.71de40556235ep-19, 0x1.27e4d7fddc246p-22,
-                                0x1.ae4d966858ba3p-26, 0x1.1f7919372ca92p-29, 0x1.81830637ac7f9p-33};
+  constexpr std::array kRest = {0x1.p-1,
+                                0x1.5555555555555p-3,
+                                0x1.5555555555556p-5,
+                                0x1.111111111137ep-7,
+                                0x1.6c16c16c15fefp-10,
+                                0x1.a01a019ea908ap-13,
+                                0x1.a01a01a82049dp-16,
+                                0x1.71de40556235ep-19,
+                                0x1.27e4d7fddc246p-22,
+                                0x1.ae4d966858ba3p-26,
+                                0x1.1f7919372ca92p-29,
+                                0x1.81830637ac7f9p-33};
   if (std::isnan(x)) return x;
   if (x > 710.0) return kInfinity;
   if (x < -746.0) return 0.0;
@@ -280,11 +286,10 @@ double Acos(double x) {
 }
 
 double Atan2(double y, double x) {
-  constexpr std::array kRest = {-0x1.5555555555555p-2, 0x1.9999999999804p-3,  -0x1.24924924806bfp-3,
-                                0x1.c71c71bb6acedp-4,  -0x1.745d152024eecp-4, 0x1.3b1372afc8bf4p-4,
-                                -0x1.110c66b3ed77ep-4, 0x1.e1697a18aa9ecp-5,  -0x1.ab02f46db8b24p-5,
-                                0x1.6d4aacdfa69e3p-5,  -0x1.0233ba5442478p-5, 0x1.56fc84860e8cap-7,
-                                0x1.3f3ea9d35960ap-8};
+  constexpr std::array kRest = {
+      -0x1.5555555555555p-2, 0x1.9999999999804p-3,  -0x1.24924924806bfp-3, 0x1.c71c71bb6acedp-4,  -0x1.745d152024eecp-4,
+      0x1.3b1372afc8bf4p-4,  -0x1.110c66b3ed77ep-4, 0x1.e1697a18aa9ecp-5,  -0x1.ab02f46db8b24p-5, 0x1.6d4aacdfa69e3p-5,
+      -0x1.0233ba5442478p-5, 0x1.56fc84860e8cap-7,  0x1.3f3ea9d35960ap-8};
   constexpr TwoDoubles kQuarterPi{0x1.921fb54442d18p-1, 0x1.1a62633145c07p-55};
   if (std::isnan(x) || std::isnan(y)) return kNan;
   double larger = std::fabs(x), smaller = std::fabs(y);
@@ -305,8 +310,8 @@ double Atan2(double y, double x) {
     smaller = std::ldexp(smaller, -exponent);
     // atan q = pi/4 + atan((q - 1) / (q + 1))
     const bool upper = smaller > 0x1.a827999fcef34p-2 * larger;  // tan(pi/8)
-    const TwoDoubles t = upper ? SumOf(smaller, -larger) / SumOf(smaller, larger)
-                               : TwoDoubles{smaller, 0.0} / TwoDoubles{larger, 0.0};
+    const TwoDoubles t =
+        upper ? SumOf(smaller, -larger) / SumOf(smaller, larger) : TwoDoubles{smaller, 0.0} / TwoDoubles{larger, 0.0};
     const double z = t.high * t.high;
     angle = SumOfOrdered(t.high, t.high * z * Polynomial(z, kRest) + t.low * (1.0 - z));
     if (upper) angle = kQuarterPi + angle;

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Prints the polynomial coefficients of elementary-inl.h (float) and elementary.cc (double).
 
-Each is a least-squares fit on Chebyshev nodes, in 60 digits, of the smooth function that is left when the part that must
-be exact is split off; coefficients are rounded one after the other, lowest first, and the rest is fitted again. The
-maximum error relative to the weight is printed beside it. Needs mpmath.
+Each is a least-squares fit on Chebyshev nodes, in 60 digits, of the smooth function that is left when the part that
+must be exact is split off; coefficients are rounded one after the other, lowest first, and the rest is fitted again.
+The maximum error is printed beside it. Needs mpmath.
 """
 import mpmath as mp
 

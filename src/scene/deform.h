@@ -15,8 +15,8 @@ Primitive CopyWithoutDeformers(const Primitive& primitive);
 bool IsMorphed(const Primitive& primitive, const std::vector<float>& weights);
 
 // Adds the displacements of the targets times their weights (missing ones are zero, surplus ones ignored) to
-// `deformed`, a copy of the attributes of `primitive`, which keeps the targets. Normals and tangents are made unit again
-// (one that vanishes keeps its undeformed direction), colours clamped to [0, 1].
+// `deformed`, a copy of the attributes of `primitive`, which keeps the targets. Normals and tangents are made unit
+// again (one that vanishes keeps its undeformed direction), colours clamped to [0, 1].
 void ApplyMorph(const Primitive& primitive, const std::vector<float>& weights, Primitive& deformed);
 
 // One skin at one moment.
@@ -27,8 +27,8 @@ struct JointMatrices {
 };
 
 // The joints' matrices, relative to an origin near the mesh: coordinates of a figure far from the world's origin would
-// lose their last digits in float. Where most joints mirror, so does world_from_local: the winding of the triangles then
-// follows from its determinant as it does for any other mesh.
+// lose their last digits in float. Where most joints mirror, so does world_from_local: the winding of the triangles
+// then follows from its determinant as it does for any other mesh.
 JointMatrices PlaceJoints(const Skin& skin, const std::vector<glm::dmat4>& world_from_node,
                           const glm::dmat4& world_from_mesh_node);
 

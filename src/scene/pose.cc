@@ -31,7 +31,8 @@ struct Shape {
   bool IsCopy() const { return IsDeformed() || needs_tangents; }
 };
 
-// What Pose and PosedBounds have in common: which geometries there are and where each is drawn.
+// What Pose and PosedBounds have in common: which geometries there are and where each is drawn. Its shapes point into
+// the nodes' weights and the joints, whose addresses a move keeps.
 struct Plan {
   std::vector<Shape> shapes;
   std::vector<std::size_t> shape_of_drawable;
@@ -74,6 +75,66 @@ Shape MakeShape(const Scene& scene, const Primitive& primitive, int material) {
   return shape;
 }
 
+using SharedShapes = std::map<const Primitive*, std::size_t>;  // undeformed: the same for all nodes with the mesh
+
+// The index in plan.shapes of each primitive of the node's mesh (of no meaning for those without vertices).
+std::vector<std::size_t> AddShapes(const Scene& scene, int node_index, int variant, SharedShapes& shared, Plan& plan) {
+  const Node& node = scene.nodes[std::size_t(node_index)];
+  const Mesh& mesh = scene.meshes[std::size_t(node.mesh)];
+  const JointMatrices* joints = nullptr;  // made when a primitive has use for them
+  std::vector<std::size_t> shapes(mesh.primitives.size());
+  for (std::size_t p = 0; p < mesh.primitives.size(); ++p) {
+    const Primitive& primitive = mesh.primitives[p];
+    if (primitive.positions.empty()) continue;
+    Shape shape = MakeShape(scene, primitive, MaterialOf(primitive, variant));
+    shape.where = "mesh " + std::to_string(node.mesh) + ", primitive " + std::to_string(p);
+    shape.weights = &plan.nodes.weights[std::size_t(node_index)];
+    shape.morphed = IsMorphed(primitive, *shape.weights);
+    if (node.skin >= 0 && !primitive.joints.empty()) {
+      if (joints == nullptr) {
+        plan.joints.push_back(PlaceJoints(scene.skins[std::size_t(node.skin)], plan.nodes.world_from_node,
+                                          plan.nodes.world_from_node[std::size_t(node_index)]));
+        joints = &plan.joints.back();
+      }
+      shape.joints = joints;
+    }
+    shapes[p] = plan.shapes.size();
+    if (!shape.IsDeformed()) {
+      const auto [place, is_new] = shared.emplace(&primitive, shapes[p]);
+      shapes[p] = place->second;
+      if (!is_new) continue;
+    }
+    plan.shapes.push_back(std::move(shape));
+  }
+  return shapes;
+}
+
+void AddDrawables(const Scene& scene, int node_index, int variant, const std::vector<std::size_t>& shapes,
+                  Plan& plan) {
+  const Node& node = scene.nodes[std::size_t(node_index)];
+  const Mesh& mesh = scene.meshes[std::size_t(node.mesh)];
+  const glm::dmat4& world_from_node = plan.nodes.world_from_node[std::size_t(node_index)];
+  const std::size_t copies = node.instances.empty() ? 1 : node.instances.size();
+  for (std::size_t copy = 0; copy < copies; ++copy) {
+    const glm::dmat4 world_from_copy =
+        node.instances.empty() ? world_from_node : world_from_node * ToMatrix(node.instances[copy]);
+    for (std::size_t p = 0; p < mesh.primitives.size(); ++p) {
+      if (mesh.primitives[p].positions.empty()) continue;
+      const JointMatrices* skin = plan.shapes[shapes[p]].joints;
+      // Joints place a skinned mesh, not its node, and so not the node's instances either: it is drawn once.
+      if (skin != nullptr && copy > 0) continue;
+      Drawable drawable;
+      drawable.world_from_mesh = skin != nullptr ? skin->world_from_local : world_from_copy;
+      drawable.material = MaterialOf(mesh.primitives[p], variant);
+      drawable.node = node_index;
+      drawable.mesh = node.mesh;
+      drawable.primitive = int(p);
+      plan.drawables.push_back(drawable);
+      plan.shape_of_drawable.push_back(shapes[p]);
+    }
+  }
+}
+
 Plan MakePlan(const Scene& scene, const PoseSettings& settings) {
   CheckSettings(scene, settings);
   ValidateScene(scene);
@@ -82,60 +143,11 @@ Plan MakePlan(const Scene& scene, const PoseSettings& settings) {
       settings.animation < 0 ? nullptr : &scene.animations[std::size_t(settings.animation)];
   plan.nodes = PlaceNodes(scene, animation, settings.time);
   plan.visible = VisibleNodes(scene, settings.scene);
-
-  std::map<const Primitive*, std::size_t> undeformed;  // shapes that all nodes with this mesh share
+  SharedShapes shared;
   for (const int index : plan.visible) {
-    const Node& node = scene.nodes[std::size_t(index)];
-    if (node.mesh < 0) continue;
-    const Mesh& mesh = scene.meshes[std::size_t(node.mesh)];
-    const glm::dmat4& world_from_node = plan.nodes.world_from_node[std::size_t(index)];
-    const std::vector<float>& weights = plan.nodes.weights[std::size_t(index)];
-    const JointMatrices* joints = nullptr;
-    std::vector<std::size_t> shapes(mesh.primitives.size());
-    for (std::size_t p = 0; p < mesh.primitives.size(); ++p) {
-      const Primitive& primitive = mesh.primitives[p];
-      if (primitive.positions.empty()) continue;
-      Shape shape = MakeShape(scene, primitive, MaterialOf(primitive, settings.variant));
-      shape.where = "mesh " + std::to_string(node.mesh) + ", primitive " + std::to_string(p);
-      shape.weights = &weights;
-      shape.morphed = IsMorphed(primitive, weights);
-      if (node.skin >= 0 && !primitive.joints.empty()) {
-        if (joints == nullptr) {
-          plan.joints.push_back(
-              PlaceJoints(scene.skins[std::size_t(node.skin)], plan.nodes.world_from_node, world_from_node));
-          joints = &plan.joints.back();
-        }
-        shape.joints = joints;
-      }
-      const bool shared = !shape.IsDeformed();
-      const auto found = shared ? undeformed.find(&primitive) : undeformed.end();
-      if (found != undeformed.end()) {
-        shapes[p] = found->second;
-        continue;
-      }
-      shapes[p] = plan.shapes.size();
-      if (shared) undeformed.emplace(&primitive, shapes[p]);
-      plan.shapes.push_back(std::move(shape));
-    }
-    const std::size_t copies = node.instances.empty() ? 1 : node.instances.size();
-    for (std::size_t copy = 0; copy < copies; ++copy) {
-      for (std::size_t p = 0; p < mesh.primitives.size(); ++p) {
-        if (mesh.primitives[p].positions.empty()) continue;
-        Drawable drawable;
-        const JointMatrices* skin = plan.shapes[shapes[p]].joints;
-        // Joints place a skinned mesh, not its node, and so not the node's instances either: it is drawn once.
-        if (skin != nullptr && copy > 0) continue;
-        drawable.world_from_mesh = skin != nullptr           ? skin->world_from_local
-                                   : node.instances.empty() ? world_from_node
-                                                             : world_from_node * ToMatrix(node.instances[copy]);
-        drawable.material = MaterialOf(mesh.primitives[p], settings.variant);
-        drawable.node = index;
-        drawable.mesh = node.mesh;
-        drawable.primitive = int(p);
-        plan.drawables.push_back(drawable);
-        plan.shape_of_drawable.push_back(shapes[p]);
-      }
-    }
+    if (scene.nodes[std::size_t(index)].mesh < 0) continue;
+    const std::vector<std::size_t> shapes = AddShapes(scene, index, settings.variant, shared, plan);
+    AddDrawables(scene, index, settings.variant, shapes, plan);
   }
   return plan;
 }

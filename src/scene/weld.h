@@ -15,9 +15,9 @@ std::vector<std::uint32_t> WeldVertices(const Primitive& primitive, const std::v
 
 constexpr std::uint32_t kNoFace = 0xFFFFFFFFu;
 
-// For each corner of a list of triangles the triangle on the other side of the edge from that corner to the next one of
-// its triangle, or kNoFace. Only triangles that run along the edge in opposite directions are neighbours; where there are
-// more than two, they are paired in the order of the list. Triangles whose `skipped` is not 0 have no neighbours.
+// For each corner of a list of triangles the triangle on the other side of the edge from that corner to the next one
+// of its triangle, or kNoFace. Only triangles that run along the edge in opposite directions are neighbours; where
+// there are more than two, they are paired in the order of the list. Those whose `skipped` is not 0 have no neighbours.
 // `corners` hold welded vertices, below `vertex_count`.
 std::vector<std::uint32_t> FindNeighbors(const std::vector<std::uint32_t>& corners,
                                          const std::vector<std::uint8_t>& skipped, std::size_t vertex_count);

@@ -52,7 +52,8 @@ TEST(FacetHelp, NamesEveryOptionAsTheManualDoes) {
                              "--no-progress",
                              "--quiet"}) {
     EXPECT_NE(help.find(option), std::string::npos) << option << " is not in the help";
-    EXPECT_NE(manual.find(option), std::string::npos) << option << " is not in the manual";
+    const std::string flag = "Fl " + std::string(option + 1);  // mdoc's Fl sets the first hyphen
+    EXPECT_NE(manual.find(flag), std::string::npos) << option << " is not in the manual";
   }
 }
 

@@ -52,8 +52,12 @@ void ExpectNearestCodes(Encode encode, int last) {
   EXPECT_EQ(encode(HUGE_VALF), last);
 }
 
-TEST(Srgb, EncodesToTheNearestByte) { ExpectNearestCodes([](float x) { return int(LinearToSrgb8(x)); }, 255); }
-TEST(Srgb, EncodesToTheNearest16BitCode) { ExpectNearestCodes([](float x) { return int(LinearToSrgb16(x)); }, 65535); }
+TEST(Srgb, EncodesToTheNearestByte) {
+  ExpectNearestCodes([](float x) { return int(LinearToSrgb8(x)); }, 255);
+}
+TEST(Srgb, EncodesToTheNearest16BitCode) {
+  ExpectNearestCodes([](float x) { return int(LinearToSrgb16(x)); }, 65535);
+}
 
 TEST(Srgb, ColoursOfBytesSurviveTheWayThere) {
   for (int code = 0; code < 256; ++code) {

@@ -6,10 +6,10 @@ transparency, not exact colour. Camera: the eye is the manifest's translation wi
 was left-handed), it looks at the origin, the vertical field of view is 0.8 rad. Animations stand at time 0 of the
 first one.
 
-shape    IoU of facet's coverage with what differs from the background plate, which one picture of a wholly cut-out
-         model shows ("-" for the cameras that have none); for points and lines the smaller share of one's pixels that
-         lie within 2 pixels of the other's
-edge     where there is no plate: share of facet's silhouette that lies within 2 pixels of an edge of the picture
+covers   share of the pixels that stand out from the background plate that facet covers, within 2 pixels; the plate is
+         the picture of a wholly cut-out model ("-" for the cameras that have none)
+rim      share of facet's silhouette that lies within 2 pixels of what stands out, or, without a plate, of an edge of
+         the picture; what has the background's colour cannot stand out
 light    Spearman's correlation of CIE L* inside, facet laid over the plate
 detail   Pearson's correlation of L* less its local mean (13 x 13 pixels): texture, blind to smooth light
 chroma   Pearson's correlation of a* and b*
@@ -30,7 +30,7 @@ SIZE = 400
 FOV_DEGREES = math.degrees(0.8)
 PLATE_CAMERA = [0.0, 0.0, 1.3]
 PLATE = "Material_AlphaMask_03"  # alpha below the cutoff everywhere: the bare background
-LIMITS = {"shape": 0.96, "edge": 0.9, "light": None, "detail": 0.8, "chroma": 0.8, "through": (0.7, 1.3)}
+LIMITS = {"covers": 0.98, "rim": 0.6, "light": None, "detail": 0.7, "chroma": 0.8, "through": (0.65, 1.35)}
 UNKNOWN_LOOKS = "KHR_materials_pbrSpecularGlossiness"
 # Refused by the specification's rules: a newer minor version, and a required extension that nobody has.
 MAY_BE_REFUSED = ("Compatibility_",)
@@ -84,25 +84,20 @@ def compare(ours, sample, plate, has_plate):
     """The measures of the docstring. `plate` is the background, or grey where it is not known."""
     alpha = ours[..., 3].astype(np.float64)
     covered = alpha >= 0.5
-    touched = alpha > 0.02
+    touched = alpha > 0.05
     result = dict.fromkeys(LIMITS, float("nan"))
     difference = np.abs(sample - plate).max(axis=-1)
     seen = difference > 14 / 255
     if has_plate and not touched.any():
-        result["shape"] = 1.0 if np.count_nonzero(seen) < 0.002 * seen.size else 0.0
+        result["covers"] = 1.0 if np.count_nonzero(seen) < 0.002 * seen.size else 0.0
         return result, seen
-    if has_plate:
-        if metrics.erode(touched, 2).any():
-            closed = metrics.erode(metrics.dilate(seen, 2), 2)
-            result["shape"] = float(metrics.intersection_over_union(touched, closed))
-        else:  # points and lines, whose width is each viewer's choice
-            faint = difference > 8 / 255
-            result["shape"] = min(float(np.count_nonzero(a & metrics.dilate(b, 2)) / max(np.count_nonzero(a), 1))
-                                  for a, b in ((touched, faint), (seen, touched)))
     rim = touched & ~metrics.erode(touched)
     rim[:2], rim[-2:], rim[:, :2], rim[:, -2:] = False, False, False, False
-    if rim.any() and not has_plate:
-        result["edge"] = float(np.count_nonzero(rim & metrics.dilate(edges(sample, 0.01), 2)) / np.count_nonzero(rim))
+    if has_plate:
+        result["covers"] = float(np.count_nonzero(seen & metrics.dilate(touched, 2)) / max(np.count_nonzero(seen), 1))
+    if rim.any():
+        support = difference > 8 / 255 if has_plate else edges(sample, 0.01)
+        result["rim"] = float(np.count_nonzero(rim & metrics.dilate(support, 2)) / np.count_nonzero(rim))
 
     inner = metrics.erode(touched if has_plate else covered, 2)
     if np.count_nonzero(inner) < 100:
@@ -131,7 +126,7 @@ def outliers(result, shape_only):
     names = []
     for name, limit in LIMITS.items():
         value = result.get(name, float("nan"))
-        if limit is None or value != value or (shape_only and name not in ("shape", "edge")):
+        if limit is None or value != value or (shape_only and name not in ("covers", "rim")):
             continue
         if (value < limit) if not isinstance(limit, tuple) else not limit[0] <= value <= limit[1]:
             names.append(name)

@@ -86,15 +86,19 @@ def read_rgba(path):
         return np.asarray(image.convert("RGBA"), dtype=np.float32) / 255.0
 
 
+def averaged(rgba, width, height):
+    """The picture averaged down to width x height, in encoded values and weighted by alpha as picture tools do it."""
+    premultiplied = np.concatenate([rgba[..., :3] * rgba[..., 3:], rgba[..., 3:]], axis=-1)
+    mean = np.stack([np.asarray(Image.fromarray(np.ascontiguousarray(premultiplied[..., c])).resize(
+        (width, height), Image.BOX)) for c in range(4)], axis=-1)
+    colour = np.where(mean[..., 3:] > 0, mean[..., :3] / np.maximum(mean[..., 3:], 1e-6), 0)
+    return np.concatenate([colour, mean[..., 3:]], axis=-1)
+
+
 def over(rgba, background):
     """The picture over an sRGB colour or picture, blended in encoded values as viewers show it."""
     alpha = rgba[..., 3:]
     return rgba[..., :3] * alpha + np.asarray(background, dtype=np.float32) * (1 - alpha)
-
-
-def heat(values, scale):
-    """Grey picture of an error, white at `scale`."""
-    return np.repeat(np.clip(values / scale, 0, 1)[..., None], 3, axis=-1)
 
 
 def mount(panels, height=320):

@@ -18,13 +18,13 @@ const Primitive& First(const LoadedScene& loaded) { return loaded.scene.meshes.a
 TEST(Accessor, NormalizedUnsignedTexCoordsAndColors) {
   FileMaker file;
   file.Attribute("POSITION", file.Triangle());
-  file.Attribute("TEXCOORD_0",
-                 file.Accessor(file.View(Pack<std::uint8_t>({0, 255, 51, 102, 0, 128, 1, 254}), 0), 5121, 3, "VEC2",
-                               ",\"normalized\":true"));
+  file.Attribute("TEXCOORD_0", file.Accessor(file.View(Pack<std::uint8_t>({0, 255, 51, 102, 0, 128, 1, 254}), 0), 5121,
+                                             3, "VEC2", ",\"normalized\":true"));
   file.Attribute("TEXCOORD_1", file.Accessor(file.View(Pack<std::uint16_t>({0, 65535, 13107, 26214, 1, 65534})), 5123,
                                              3, "VEC2", ",\"normalized\":true"));
-  file.Attribute("COLOR_0", file.Accessor(file.View(Pack<std::uint8_t>({255, 51, 0, 0, 0, 255, 102, 0, 0, 0, 255, 0}), 4),
-                                          5121, 3, "VEC3", ",\"normalized\":true"));
+  file.Attribute("COLOR_0",
+                 file.Accessor(file.View(Pack<std::uint8_t>({255, 51, 0, 0, 0, 255, 102, 0, 0, 0, 255, 0}), 4), 5121, 3,
+                               "VEC3", ",\"normalized\":true"));
   const LoadedScene loaded = LoadBytes(file.AsGlb());
   const Primitive& p = First(loaded);
   EXPECT_TRUE(loaded.report.warnings.empty());
@@ -40,13 +40,13 @@ TEST(Accessor, NormalizedSignedIntegersStopAtMinusOne) {
   // Morph targets keep signed values as they are, unlike normals, which are made unit.
   FileMaker file;
   file.Attribute("POSITION", file.Triangle());
-  const int bytes = file.Accessor(file.View(Pack<std::int8_t>({-128, -127, 127, 0, 64, -64, 1, 0, 0, 0, 0, 0}), 4), 5120,
-                                  3, "VEC3", ",\"normalized\":true");
+  const int bytes = file.Accessor(file.View(Pack<std::int8_t>({-128, -127, 127, 0, 64, -64, 1, 0, 0, 0, 0, 0}), 4),
+                                  5120, 3, "VEC3", ",\"normalized\":true");
   const int shorts =
       file.Accessor(file.View(Pack<std::int16_t>({-32768, -32767, 32767, 0, 16384, -1, 0, 0, 0, 0, 0, 0}), 8), 5122, 3,
                     "VEC3", ",\"normalized\":true");
-  file.PrimitiveMore() = ",\"targets\":[{\"POSITION\":" + std::to_string(bytes) + "},{\"POSITION\":" +
-                         std::to_string(shorts) + "}]";
+  file.PrimitiveMore() =
+      ",\"targets\":[{\"POSITION\":" + std::to_string(bytes) + "},{\"POSITION\":" + std::to_string(shorts) + "}]";
   const LoadedScene loaded = LoadBytes(file.AsGlb());
   const auto& targets = First(loaded).targets;
   ASSERT_EQ(targets.size(), 2u);
@@ -58,7 +58,8 @@ TEST(Accessor, NormalizedSignedIntegersStopAtMinusOne) {
 
 TEST(Accessor, IntegersThatAreNotNormalizedKeepTheirValue) {
   FileMaker file;
-  file.RootMore() = ",\"extensionsUsed\":[\"KHR_mesh_quantization\"],\"extensionsRequired\":[\"KHR_mesh_quantization\"]";
+  file.RootMore() =
+      ",\"extensionsUsed\":[\"KHR_mesh_quantization\"],\"extensionsRequired\":[\"KHR_mesh_quantization\"]";
   file.Attribute("POSITION", file.Accessor(file.View(Pack<std::int16_t>({-300, 0, 7, 0, 1000, 0, 0, 0, 0, 1, 2, 0}), 8),
                                            5122, 3, "VEC3"));
   const LoadedScene loaded = LoadBytes(file.AsGlb());
@@ -81,7 +82,8 @@ TEST(Accessor, InterleavedAttributesHaveStrideAndOffset) {
 TEST(Accessor, LastElementNeedsNoPadding) {
   // The last vertex may end before its stride does: 2 * 16 + 12 bytes are enough for three.
   FileMaker file;
-  file.Attribute("POSITION", file.Accessor(file.View(Pack<float>({0, 0, 0, 9, 1, 0, 0, 9, 0, 1, 0}), 16), 5126, 3, "VEC3"));
+  file.Attribute("POSITION",
+                 file.Accessor(file.View(Pack<float>({0, 0, 0, 9, 1, 0, 0, 9, 0, 1, 0}), 16), 5126, 3, "VEC3"));
   EXPECT_EQ(First(LoadBytes(file.AsGlb())).positions[2], glm::vec3(0, 1, 0));
 }
 
@@ -94,7 +96,8 @@ TEST(Accessor, SparseReplacesWithAndWithoutBase) {
   };
   FileMaker based;
   const std::string over_base = sparse(based);
-  based.Attribute("POSITION", based.Accessor(based.View(Pack<float>({1, 2, 3, 0, 0, 0, 4, 4, 4})), 5126, 3, "VEC3", over_base));
+  based.Attribute("POSITION",
+                  based.Accessor(based.View(Pack<float>({1, 2, 3, 0, 0, 0, 4, 4, 4})), 5126, 3, "VEC3", over_base));
   const LoadedScene loaded_based = LoadBytes(based.AsGlb());
   EXPECT_EQ(First(loaded_based).positions[0], glm::vec3(1, 2, 3));
   EXPECT_EQ(First(loaded_based).positions[1], glm::vec3(5, 6, 7));
@@ -112,9 +115,11 @@ TEST(Accessor, SparseIndicesBeyondTheEndAreRefused) {
   FileMaker file;
   const int indices = file.View(Pack<std::uint8_t>({3}));
   const int values = file.View(Pack<float>({5, 6, 7}));
-  file.Attribute("POSITION", file.Accessor(-1, 5126, 3, "VEC3", ",\"sparse\":{\"count\":1,\"indices\":{\"bufferView\":" +
-                     std::to_string(indices) + ",\"componentType\":5121},\"values\":{\"bufferView\":" +
-                     std::to_string(values) + "}}"));
+  file.Attribute(
+      "POSITION",
+      file.Accessor(-1, 5126, 3, "VEC3",
+                    ",\"sparse\":{\"count\":1,\"indices\":{\"bufferView\":" + std::to_string(indices) +
+                        ",\"componentType\":5121},\"values\":{\"bufferView\":" + std::to_string(values) + "}}"));
   EXPECT_NE(LoadError(file.AsGlb(), ErrorCode::InvalidInput).find("accessors[0].sparse.indices"), std::string::npos);
 }
 
@@ -134,7 +139,8 @@ TEST(Accessor, HugeCountsAreRefusedBeforeMemoryIsTaken) {
   for (const char* count : {"4294967295", "9007199254740991", "100000000"}) {
     FileMaker file;
     file.Attribute("POSITION", 0);
-    file.RootMore() = ",\"accessors\":[{\"componentType\":5126,\"count\":" + std::string(count) + ",\"type\":\"VEC3\"}]";
+    file.RootMore() =
+        ",\"accessors\":[{\"componentType\":5126,\"count\":" + std::string(count) + ",\"type\":\"VEC3\"}]";
     LoadError(file.AsGlb(), std::string(count).size() > 10 ? ErrorCode::Unsupported : ErrorCode::OutOfMemory);
   }
 }

@@ -21,8 +21,9 @@ class TempFolder {
  public:
   TempFolder() {
     const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
-    std::string pattern = (std::filesystem::temp_directory_path() /
-                           (std::string("facet_") + info->test_suite_name() + "_XXXXXX")).string();
+    std::string pattern =
+        (std::filesystem::temp_directory_path() / (std::string("facet_") + info->test_suite_name() + "_XXXXXX"))
+            .string();
     path_ = mkdtemp(pattern.data());
   }
   ~TempFolder() {
@@ -79,18 +80,17 @@ class FileMaker {
   // Returns the view's index.
   int View(const std::string& bytes, int stride = 0, const std::string& more = {}) {
     while (bin_.size() % 4) bin_ += '\0';
-    views_ += (views_.empty() ? "" : ",") + std::string("{\"buffer\":0,\"byteOffset\":") + std::to_string(bin_.size()) +
-              ",\"byteLength\":" + std::to_string(bytes.size()) +
-              (stride ? ",\"byteStride\":" + std::to_string(stride) : "") + more + "}";
+    Append(views_, {"{\"buffer\":0,\"byteOffset\":", std::to_string(bin_.size()),
+                    ",\"byteLength\":", std::to_string(bytes.size()), stride ? ",\"byteStride\":" : "",
+                    stride ? std::to_string(stride) : "", more, "}"});
     bin_ += bytes;
     return view_count_++;
   }
   // Returns the accessor's index; view -1: none.
   int Accessor(int view, int component_type, std::size_t count, const std::string& type, const std::string& more = {}) {
-    accessors_ += (accessors_.empty() ? "" : ",") + std::string("{") +
-                  (view >= 0 ? "\"bufferView\":" + std::to_string(view) + "," : "") +
-                  "\"componentType\":" + std::to_string(component_type) + ",\"count\":" + std::to_string(count) +
-                  ",\"type\":\"" + type + "\"" + more + "}";
+    Append(accessors_, {"{\"componentType\":", std::to_string(component_type), ",\"count\":", std::to_string(count),
+                        view >= 0 ? ",\"bufferView\":" : "", view >= 0 ? std::to_string(view) : "", ",\"type\":\"",
+                        type, "\"", more, "}"});
     return accessor_count_++;
   }
   int Floats(std::initializer_list<float> values, const std::string& type, int components) {
@@ -100,7 +100,7 @@ class FileMaker {
   int Triangle() { return Floats({0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3", 3); }
 
   void Attribute(const std::string& semantic, int accessor) {
-    attributes_ += (attributes_.empty() ? "" : ",") + std::string("\"") + semantic + "\":" + std::to_string(accessor);
+    Append(attributes_, {"\"", semantic, "\":", std::to_string(accessor)});
   }
   std::string& PrimitiveMore() { return primitive_more_; }  // ",\"mode\":4"
   std::string& MeshMore() { return mesh_more_; }
@@ -109,9 +109,10 @@ class FileMaker {
   const std::string& Bin() const { return bin_; }
 
   std::string Json(const std::string& uri = {}) const {
-    std::string json = "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0" +
-                       node_more_ + "}" + nodes_more_ + "],\"meshes\":[{\"primitives\":[{\"attributes\":{" + attributes_ +
-                       "}" + primitive_more_ + "}]" + mesh_more_ + "}]";
+    std::string json =
+        "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0" +
+        node_more_ + "}" + nodes_more_ + "],\"meshes\":[{\"primitives\":[{\"attributes\":{" + attributes_ + "}" +
+        primitive_more_ + "}]" + mesh_more_ + "}]";
     if (view_count_) json += ",\"bufferViews\":[" + views_ + "]";
     if (accessor_count_) json += ",\"accessors\":[" + accessors_ + "]";
     if (!bin_.empty()) {
@@ -124,6 +125,12 @@ class FileMaker {
   std::string AsGlb() const { return Glb(Json(), bin_); }
 
  private:
+  // One more element of a JSON list.
+  static void Append(std::string& list, std::initializer_list<std::string> parts) {
+    if (!list.empty()) list += ',';
+    for (const std::string& part : parts) list += part;
+  }
+
   std::string bin_, views_, accessors_, attributes_, primitive_more_, mesh_more_, node_more_, nodes_more_, root_more_;
   int view_count_ = 0, accessor_count_ = 0;
 };
@@ -153,7 +160,7 @@ inline std::filesystem::path CorpusPath() {
 
 }  // namespace facet::testing
 
-#define FACET_NEED_CORPUS()                                                                     \
-  if (!std::filesystem::is_directory(::facet::testing::CorpusPath() / "models")) {              \
-    GTEST_SKIP() << "the corpus is not at " << ::facet::testing::CorpusPath().string();         \
+#define FACET_NEED_CORPUS()                                                             \
+  if (!std::filesystem::is_directory(::facet::testing::CorpusPath() / "models")) {      \
+    GTEST_SKIP() << "the corpus is not at " << ::facet::testing::CorpusPath().string(); \
   }

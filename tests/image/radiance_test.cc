@@ -30,7 +30,8 @@ TEST(Radiance, NumbersAreMantissaTimesPowerOfTwo) {
   const Image image = DecodeImage(file, "picture");
   EXPECT_EQ(image.type, ChannelType::F32);
   EXPECT_EQ(image.encoding, Encoding::Linear);
-  EXPECT_EQ(Floats(image), (std::vector<float>{200, 100, 7, 0, 0, 0, 1.0f, 0.5f, 0, 255 * 0x1p119f, 0x1p119f, 0x1p120f}));
+  EXPECT_EQ(Floats(image),
+            (std::vector<float>{200, 100, 7, 0, 0, 0, 1.0f, 0.5f, 0, 255 * 0x1p119f, 0x1p119f, 0x1p120f}));
 }
 
 TEST(Radiance, OldRunLengths) {

@@ -9,6 +9,7 @@
 #include <random>
 
 #include "base/parallel.h"
+#include "facet/error.h"
 #include "facet/shader/dispatch.h"
 #include "light/lighting-inl.h"
 #include "light/studio.h"
@@ -62,9 +63,9 @@ TEST(Environment, ConstantStaysConstant) {
   const auto map = PrefilterEnvironment(Paint(128, 64, [](Vec3<double>) { return 0.7; }));
   for (Vec3<double> d : SomeDirections(200)) {
     for (double roughness : {0.0, 0.1, 0.3, 0.5, 0.8, 1.0}) {
-      EXPECT_NEAR(lanes::PrefilteredRadiance(*map, d, roughness).y, 1.4, 4e-6);
+      EXPECT_NEAR(lanes::PrefilteredRadiance(*map, d, roughness).y, 1.4, 2e-5);
     }
-    EXPECT_NEAR(lanes::IrradianceOverPi(*map, d).z, 2.1, 6e-6);
+    EXPECT_NEAR(lanes::IrradianceOverPi(*map, d).z, 2.1, 3e-5);
   }
 }
 
@@ -127,7 +128,7 @@ TEST(Environment, IrradianceOfAGradient) {
   // The cosine lobe's mean of a linear function f(d) = 1 + d.a is 1 + 2/3 n.a.
   const auto map = PrefilterEnvironment(Paint(256, 128, [](Vec3<double> d) { return 1.0 + 0.6 * d.x - 0.5 * d.z; }));
   for (Vec3<double> n : SomeDirections(300)) {
-    EXPECT_NEAR(lanes::IrradianceOverPi(*map, n).x, 1.0 + 2.0 / 3.0 * (0.6 * n.x - 0.5 * n.z), 0.003);
+    EXPECT_NEAR(lanes::IrradianceOverPi(*map, n).x, 1.0 + 2.0 / 3.0 * (0.6 * n.x - 0.5 * n.z), 0.004);
   }
 }
 
@@ -138,7 +139,7 @@ double Prefilter(const std::function<double(Vec3<double>)>& radiance, Vec3<doubl
   t = t / std::sqrt(Dot(t, t));
   const Vec3<double> b = lanes::Cross(n, t);
   double sum = 0.0, weight_sum = 0.0;
-  constexpr int kPolar = 400, kAzimuth = 128;
+  constexpr int kPolar = 250, kAzimuth = 96;
   const double low = std::log(alpha * 1e-2);
   const double high = std::log(std::tan(kPi / 4));  // half vectors to 45 degrees: light to the horizon
   for (int i = 0; i < kPolar; ++i) {
@@ -169,7 +170,7 @@ TEST(Environment, PrefilteringAgreesWithBruteForce) {
   for (int level = 1; level < EnvironmentMap::kLevels; ++level) {
     const double roughness = double(level) / (EnvironmentMap::kLevels - 1);
     double error2 = 0.0, total2 = 0.0, worst = 0.0;
-    std::vector<Vec3<double>> directions = SomeDirections(40);
+    std::vector<Vec3<double>> directions = SomeDirections(16);
     for (Vec3<double> lamp : {Vec3<double>{0.6, 0.0, 0.8}, {-0.8, -0.6, 0.0}, {0.65, 0.05, 0.7582875}}) {
       directions.push_back(lamp);
     }
@@ -180,8 +181,8 @@ TEST(Environment, PrefilteringAgreesWithBruteForce) {
       total2 += exact * exact;
       worst = std::max(worst, std::fabs(error) / (exact + 0.2));
     }
-    EXPECT_LT(std::sqrt(error2 / total2), 0.02) << "level " << level;
-    EXPECT_LT(worst, 0.06) << "level " << level;
+    EXPECT_LT(std::sqrt(error2 / total2), 0.03) << "level " << level;
+    EXPECT_LT(worst, 0.05) << "level " << level;
   }
 }
 

@@ -86,7 +86,7 @@ TEST(WhiteFurnace, DirectionalLightsOfEveryDirection) {
   RecordProperty("most", std::to_string(most));
 }
 
-// A black metal... reflects only Schlick's grazing rise; a coloured one never more than a white one.
+// A coloured surface reflects less than a white one, and not much less than its colour says.
 TEST(Furnace, ColoursNeverGain) {
   const LightingData data = DarkLighting();
   for (double base : {0.0, 0.18, 0.9}) {

@@ -57,8 +57,8 @@ FACET_EXPORT(ApplyFloats);
 
 namespace facet::testing {
 
-const std::array<const char*, kLaneFunctionCount> kLaneFunctionNames = {
-    "Exp2", "Exp", "Log2", "Log", "Cbrt", "Sin", "Cos", "Asin", "Acos", "Pow", "Atan2"};
+const std::array<const char*, kLaneFunctionCount> kLaneFunctionNames = {"Exp2", "Exp",  "Log2", "Log", "Cbrt", "Sin",
+                                                                        "Cos",  "Asin", "Acos", "Pow", "Atan2"};
 
 void ApplyOnLanes(int function, const float* a, const float* b, float* out, std::size_t count) {
   ::facet::ApplyLanesForTarget(ActiveTarget())(function, a, b, out, count);

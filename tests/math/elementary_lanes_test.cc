@@ -15,8 +15,8 @@ namespace {
 
 std::vector<float> Arguments(std::size_t count, std::uint32_t seed) {
   std::mt19937 random(seed);
-  const float special[] = {0.0f,      -0.0f,     1.0f,      -1.0f,     0.5f,    -0.5f,   HUGE_VALF, -HUGE_VALF,
-                           NAN,       0x1p-149f, 0x1p-126f, 0x1p127f,  128.0f,  -149.5f, 0x1p17f,   1e30f};
+  const float special[] = {0.0f, -0.0f,     1.0f,      -1.0f,    0.5f,   -0.5f,   HUGE_VALF, -HUGE_VALF,
+                           NAN,  0x1p-149f, 0x1p-126f, 0x1p127f, 128.0f, -149.5f, 0x1p17f,   1e30f};
   std::vector<float> arguments(std::begin(special), std::end(special));
   while (arguments.size() < count) {
     const std::uint32_t bits = static_cast<std::uint32_t>(random());

@@ -117,7 +117,7 @@ TEST(Atan2, SpecialValues) {
   EXPECT_TRUE(std::isnan(Atan2(1.0, NAN)));
 }
 
-// --- double -------------------------------------------------------------------------------------------------------------
+// --- double ---------------------------------------------------------------------------------------------------------
 
 constexpr double kDoubleBound = 1.2;  // as documented
 
@@ -139,16 +139,23 @@ using Extended = long double;
 constexpr double kMax = std::numeric_limits<double>::max();
 
 TEST(Double, Exponentials) {
-  ExpectAccurate("Exp2", Exp2, [](Extended x) { return std::exp2(x); }, -1080.0, 1030.0);
-  ExpectAccurate("Exp", Exp, [](Extended x) { return std::exp(x); }, -750.0, 720.0);
-  ExpectAccurate("Exp", Exp, [](Extended x) { return std::exp(x); }, -1.0, 1.0);
+  ExpectAccurate(
+      "Exp2", Exp2, [](Extended x) { return std::exp2(x); }, -1080.0, 1030.0);
+  ExpectAccurate(
+      "Exp", Exp, [](Extended x) { return std::exp(x); }, -750.0, 720.0);
+  ExpectAccurate(
+      "Exp", Exp, [](Extended x) { return std::exp(x); }, -1.0, 1.0);
 }
 
 TEST(Double, Logarithms) {
-  ExpectAccurate("Log2", Log2, [](Extended x) { return std::log2(x); }, 0.0, 4.0);
-  ExpectAccurate("Log2", Log2, [](Extended x) { return std::log2(x); }, 0.0, kMax);
-  ExpectAccurate("Log", Log, [](Extended x) { return std::log(x); }, 0.0, 4.0);
-  ExpectAccurate("Log", Log, [](Extended x) { return std::log(x); }, 0.0, kMax);
+  ExpectAccurate(
+      "Log2", Log2, [](Extended x) { return std::log2(x); }, 0.0, 4.0);
+  ExpectAccurate(
+      "Log2", Log2, [](Extended x) { return std::log2(x); }, 0.0, kMax);
+  ExpectAccurate(
+      "Log", Log, [](Extended x) { return std::log(x); }, 0.0, 4.0);
+  ExpectAccurate(
+      "Log", Log, [](Extended x) { return std::log(x); }, 0.0, kMax);
   EXPECT_EQ(Log2(0.0), -HUGE_VAL);
   EXPECT_EQ(Log(HUGE_VAL), HUGE_VAL);
   EXPECT_TRUE(std::isnan(Log2(-1.0)));
@@ -160,10 +167,11 @@ TEST(Double, Logarithms) {
 
 TEST(Double, Powers) {
   for (const double y : {0.3, 2.4, 1.0 / 2.4, 7.0, -11.3, 100.5, -0.001}) {
-    ExpectAccurate("Pow", [y](double x) { return Pow(x, y); }, [y](Extended x) { return std::pow(x, Extended(y)); }, 0.0,
-                   1000.0);
+    ExpectAccurate(
+        "Pow", [y](double x) { return Pow(x, y); }, [y](Extended x) { return std::pow(x, Extended(y)); }, 0.0, 1000.0);
   }
-  ExpectAccurate("Cbrt", Cbrt, [](Extended x) { return std::cbrt(x); }, -kMax / 2, kMax / 2);
+  ExpectAccurate(
+      "Cbrt", Cbrt, [](Extended x) { return std::cbrt(x); }, -kMax / 2, kMax / 2);
   for (const double x : {0.0, -0.0, 1.0, -1.0, 0.5, -2.0, HUGE_VAL, -HUGE_VAL}) {
     for (const double y : {0.0, 1.0, -1.0, 2.0, -3.0, 0.5, 0x1p60, -0x1p60, HUGE_VAL, -HUGE_VAL}) {
       if (x == -1.0 && std::isinf(y)) continue;
@@ -180,9 +188,12 @@ TEST(Double, Powers) {
 
 TEST(Double, CircularFunctions) {
   for (const double range : {0.1, 10.0, 1e9, 1e18}) {
-    ExpectAccurate("Sin", Sin, [](Extended x) { return std::sin(x); }, -range, range);
-    ExpectAccurate("Cos", Cos, [](Extended x) { return std::cos(x); }, -range, range);
-    ExpectAccurate("Tan", Tan, [](Extended x) { return std::tan(x); }, -range, range);
+    ExpectAccurate(
+        "Sin", Sin, [](Extended x) { return std::sin(x); }, -range, range);
+    ExpectAccurate(
+        "Cos", Cos, [](Extended x) { return std::cos(x); }, -range, range);
+    ExpectAccurate(
+        "Tan", Tan, [](Extended x) { return std::tan(x); }, -range, range);
   }
   // W. Kahan's worst case: 6381956970095103 2^797 is the double closest to a multiple of pi/2.
   const double worst = std::ldexp(6381956970095103.0, 797);
@@ -193,11 +204,15 @@ TEST(Double, CircularFunctions) {
 }
 
 TEST(Double, InverseCircularFunctions) {
-  ExpectAccurate("Asin", Asin, [](Extended x) { return std::asin(x); }, -1.0, 1.0);
-  ExpectAccurate("Acos", Acos, [](Extended x) { return std::acos(x); }, -1.0, 1.0);
-  ExpectAccurate("Atan2", [](double x) { return Atan2(x, 1.0); }, [](Extended x) { return std::atan(x); }, -3.0, 3.0);
-  ExpectAccurate("Atan2", [](double x) { return Atan2(0.7, x); }, [](Extended x) { return std::atan2(Extended(0.7), x); },
-                 -kMax / 2, kMax / 2);
+  ExpectAccurate(
+      "Asin", Asin, [](Extended x) { return std::asin(x); }, -1.0, 1.0);
+  ExpectAccurate(
+      "Acos", Acos, [](Extended x) { return std::acos(x); }, -1.0, 1.0);
+  ExpectAccurate(
+      "Atan2", [](double x) { return Atan2(x, 1.0); }, [](Extended x) { return std::atan(x); }, -3.0, 3.0);
+  ExpectAccurate(
+      "Atan2", [](double x) { return Atan2(0.7, x); }, [](Extended x) { return std::atan2(Extended(0.7), x); },
+      -kMax / 2, kMax / 2);
   EXPECT_EQ(Acos(1.0), 0.0);
   EXPECT_EQ(Acos(-1.0), kPi);
   EXPECT_TRUE(std::isnan(Asin(1.0000000000000002)));

@@ -11,7 +11,7 @@ struct FloatFunction {
   const char* name;
   float (*function)(float);
   double (*exact)(double);
-  double bound_ulp;            // as documented
+  double bound_ulp;          // as documented
   float domain = HUGE_VALF;  // |x| up to this
 };
 

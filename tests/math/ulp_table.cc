@@ -57,7 +57,9 @@ int main(int argc, char** argv) {
     const float x = std::bit_cast<float>(static_cast<std::uint32_t>(bits) & 0x7FFFFFFFu);
     // y for a result within the range of float, three times out of four.
     float y = std::bit_cast<float>(static_cast<std::uint32_t>(bits >> 32));
-    if (i % 4 != 0) y = static_cast<float>(static_cast<double>(y >= 0 ? 1 : -1) * static_cast<double>(bits >> 33) * 0x1p-31 * 150.0 / std::log2(x));
+    if (i % 4 != 0)
+      y = static_cast<float>(static_cast<double>(y >= 0 ? 1 : -1) * static_cast<double>(bits >> 33) * 0x1p-31 * 150.0 /
+                             std::log2(x));
     double error = UlpError(FloatPow(x, y), std::pow(static_cast<double>(x), static_cast<double>(y)));
     if (error > worst_pow) worst_pow = error, pow_x = x, pow_y = y;
     const float b = i % 2 == 0 ? y : x * static_cast<float>(1.0 + static_cast<double>(bits >> 40) * 0x1p-24);
@@ -71,26 +73,44 @@ int main(int argc, char** argv) {
 
   const double kMax = std::numeric_limits<double>::max();
   using Extended = long double;
-  SearchDouble("double Exp2", facet::Exp2, [](Extended x) { return std::exp2(x); }, -1080.0, 1030.0);
-  SearchDouble("double Exp", facet::Exp, [](Extended x) { return std::exp(x); }, -750.0, 720.0);
-  SearchDouble("double Log2", facet::Log2, [](Extended x) { return std::log2(x); }, 0.0, 4.0);
-  SearchDouble("double Log2", facet::Log2, [](Extended x) { return std::log2(x); }, 0.0, kMax);
-  SearchDouble("double Log", facet::Log, [](Extended x) { return std::log(x); }, 0.0, 4.0);
-  SearchDouble("double Log", facet::Log, [](Extended x) { return std::log(x); }, 0.0, kMax);
-  SearchDouble("double Cbrt", facet::Cbrt, [](Extended x) { return std::cbrt(x); }, -kMax / 2, kMax / 2);
-  SearchDouble("double Sin", facet::Sin, [](Extended x) { return std::sin(x); }, -10.0, 10.0);
-  SearchDouble("double Sin", facet::Sin, [](Extended x) { return std::sin(x); }, -1e18, 1e18);
-  SearchDouble("double Cos", facet::Cos, [](Extended x) { return std::cos(x); }, -10.0, 10.0);
-  SearchDouble("double Cos", facet::Cos, [](Extended x) { return std::cos(x); }, -kMax / 2, kMax / 2);
-  SearchDouble("double Tan", facet::Tan, [](Extended x) { return std::tan(x); }, -10.0, 10.0);
-  SearchDouble("double Tan", facet::Tan, [](Extended x) { return std::tan(x); }, -1e300, 1e300);
-  SearchDouble("double Asin", facet::Asin, [](Extended x) { return std::asin(x); }, -1.0, 1.0);
-  SearchDouble("double Acos", facet::Acos, [](Extended x) { return std::acos(x); }, -1.0, 1.0);
+  SearchDouble(
+      "double Exp2", facet::Exp2, [](Extended x) { return std::exp2(x); }, -1080.0, 1030.0);
+  SearchDouble(
+      "double Exp", facet::Exp, [](Extended x) { return std::exp(x); }, -750.0, 720.0);
+  SearchDouble(
+      "double Log2", facet::Log2, [](Extended x) { return std::log2(x); }, 0.0, 4.0);
+  SearchDouble(
+      "double Log2", facet::Log2, [](Extended x) { return std::log2(x); }, 0.0, kMax);
+  SearchDouble(
+      "double Log", facet::Log, [](Extended x) { return std::log(x); }, 0.0, 4.0);
+  SearchDouble(
+      "double Log", facet::Log, [](Extended x) { return std::log(x); }, 0.0, kMax);
+  SearchDouble(
+      "double Cbrt", facet::Cbrt, [](Extended x) { return std::cbrt(x); }, -kMax / 2, kMax / 2);
+  SearchDouble(
+      "double Sin", facet::Sin, [](Extended x) { return std::sin(x); }, -10.0, 10.0);
+  SearchDouble(
+      "double Sin", facet::Sin, [](Extended x) { return std::sin(x); }, -1e18, 1e18);
+  SearchDouble(
+      "double Cos", facet::Cos, [](Extended x) { return std::cos(x); }, -10.0, 10.0);
+  SearchDouble(
+      "double Cos", facet::Cos, [](Extended x) { return std::cos(x); }, -kMax / 2, kMax / 2);
+  SearchDouble(
+      "double Tan", facet::Tan, [](Extended x) { return std::tan(x); }, -10.0, 10.0);
+  SearchDouble(
+      "double Tan", facet::Tan, [](Extended x) { return std::tan(x); }, -1e300, 1e300);
+  SearchDouble(
+      "double Asin", facet::Asin, [](Extended x) { return std::asin(x); }, -1.0, 1.0);
+  SearchDouble(
+      "double Acos", facet::Acos, [](Extended x) { return std::acos(x); }, -1.0, 1.0);
   const auto atan = [](Extended x) { return std::atan(x); };
-  SearchDouble("double Atan2", [](double x) { return facet::Atan2(x, 1.0); }, atan, -5.0, 5.0);
-  SearchDouble("double Atan2", [](double x) { return facet::Atan2(x, 1.0); }, atan, -kMax / 2, kMax / 2);
+  SearchDouble(
+      "double Atan2", [](double x) { return facet::Atan2(x, 1.0); }, atan, -5.0, 5.0);
+  SearchDouble(
+      "double Atan2", [](double x) { return facet::Atan2(x, 1.0); }, atan, -kMax / 2, kMax / 2);
   for (const double y : {0.3, 2.4, 7.0, -11.3, 100.5, 1.0 / 3.0}) {
-    SearchDouble("double Pow", [y](double x) { return facet::Pow(x, y); },
-                 [y](Extended x) { return std::pow(x, static_cast<Extended>(y)); }, 0.0, 1000.0);
+    SearchDouble(
+        "double Pow", [y](double x) { return facet::Pow(x, y); },
+        [y](Extended x) { return std::pow(x, static_cast<Extended>(y)); }, 0.0, 1000.0);
   }
 }

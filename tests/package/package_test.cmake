@@ -29,15 +29,29 @@ set(flags "")
 if(SANITIZE)
   set(flags "-fsanitize=${SANITIZE}")
 endif()
-run(${CMAKE_COMMAND} -S ${CONSUMER_DIR} -B ${WORK_DIR}/build -G ${GENERATOR} -DCMAKE_CXX_COMPILER=${CXX_COMPILER}
-    -DCMAKE_BUILD_TYPE=${BUILD_TYPE} -DCMAKE_PREFIX_PATH=${prefix} "-DCMAKE_CXX_FLAGS=${flags}")
-run(${CMAKE_COMMAND} --build ${WORK_DIR}/build)
-run(${WORK_DIR}/build/consumer)
+function(build name)
+  run(${CMAKE_COMMAND} -S ${TEST_DIR}/${name} -B ${WORK_DIR}/${name} -G ${GENERATOR} -DCMAKE_CXX_COMPILER=${CXX_COMPILER}
+      -DCMAKE_BUILD_TYPE=${BUILD_TYPE} -DCMAKE_PREFIX_PATH=${prefix} "-DCMAKE_CXX_FLAGS=${flags}" ${ARGN})
+  run(${CMAKE_COMMAND} --build ${WORK_DIR}/${name})
+endfunction()
+
+build(consumer)
+run(${WORK_DIR}/consumer/consumer)
 message(STATUS "${output}")
+
+# With files, and the scene that was installed.
+build(file_consumer -DEXAMPLE=${EXAMPLE})
+file(GLOB scene ${prefix}/share/facet/scenes/showcase.glb)
+run(${WORK_DIR}/file_consumer/file_consumer ${scene} ${WORK_DIR}/showcase.png)
+message(STATUS "${output}")
+
+# The program, as it was installed.
+run(${prefix}/bin/facet info ${scene})
+run(${prefix}/bin/facet render ${scene} -o ${WORK_DIR}/program.png --size 64x64)
 
 # facet::core brings TBB and the runtime of the compiler, nothing else.
 if(NOT SANITIZE)
-  run(${READELF} -d ${WORK_DIR}/build/consumer)
+  run(${READELF} -d ${WORK_DIR}/consumer/consumer)
   string(REGEX MATCHALL "Shared library: \\[[^]]+\\]" needed "${output}")
   if(NOT needed)
     message(FATAL_ERROR "no shared libraries listed:\n${output}")

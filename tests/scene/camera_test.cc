@@ -50,7 +50,8 @@ ErrorCode CodeOf(const CameraChoice& choice, const Scene& scene = {}, const Pose
 }
 
 TEST(Camera, FramesBoxesTightlyInEveryAspect) {
-  const glm::dvec3 sizes[] = {{1, 1, 1}, {100, 1, 1}, {1, 100, 1}, {1, 1, 100}, {1e-6, 2e-6, 1e-6}, {0, 3, 0}, {5, 0, 2}};
+  const glm::dvec3 sizes[] = {{1, 1, 1},          {100, 1, 1}, {1, 100, 1}, {1, 1, 100},
+                              {1e-6, 2e-6, 1e-6}, {0, 3, 0},   {5, 0, 2}};
   for (const glm::dvec3& size : sizes) {
     const PosedScene posed = PosedBox(glm::dvec3(7, -3, 2) - size / 2.0, glm::dvec3(7, -3, 2) + size / 2.0);
     for (const auto& [width, height] : {std::pair(100, 100), std::pair(400, 100), std::pair(100, 300)}) {

@@ -75,13 +75,14 @@ TEST(Morph, FlatNormalsForNormalMapsFollowTheMorphedSurface) {
   scene.nodes[0].weights = {1, 0};
   const PosedScene posed = Pose(scene, {});
   // (0,0,1) (1,0,2) (0,1,4): edges (1,0,1), (0,1,3); normal (-1,-3,1)
-  EXPECT_LT(Distance(glm::dvec3(posed.drawables[0].geometry->normals[0]), glm::normalize(glm::dvec3(-1, -3, 1))), 1e-7);
+  const glm::dvec3 normal(posed.drawables[0].geometry->normals[0]);
+  EXPECT_LT(Distance(normal, glm::normalize(glm::dvec3(-1, -3, 1))), 1e-7);
 }
 
 // --- Skins -----------------------------------------------------------------------------------------------------------
 
-// A bar along +Y from 0 to 2. The lower end follows joint node 1 at the origin, the upper end joint node 2 at (0, 1, 0),
-// the middle both.
+// A bar along +Y from 0 to 2. The lower end follows joint node 1 at the origin, the upper end joint node 2 at
+// (0, 1, 0), the middle both.
 Scene BentBar(double bend_radians) {
   Primitive bar;
   bar.positions = {{-1, 0, 0}, {1, 0, 0}, {-1, 1, 0}, {1, 1, 0}, {-1, 2, 0}, {1, 2, 0}};
@@ -218,7 +219,7 @@ TEST(Skin, GoesAfterMorph) {
   EXPECT_LT(Distance(WorldPosition(posed.drawables[0], 0), {-1, 0, 3}), 1e-6);
 }
 
-// --- Threads -----------------------------------------------------------------------------------------------------------
+// --- Threads ---------------------------------------------------------------------------------------------------------
 
 // Large enough for several pieces of work.
 Scene LargeScene() {

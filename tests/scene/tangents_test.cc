@@ -89,7 +89,8 @@ TEST(Tangents, AreWeightedByAngle) {
   fan.indices = {0, 1, 2, 0, 2, 3};
   fan.tex_coords = {{{0, 0}, {1, 0}, {0, -1}, {-0.5f, -1.5f}}};
   MakeTangents(0, fan);
-  // First triangle: dP/du = +x. Second: edges (0,1) <-> (0,-1), (-1,1) <-> (-0.5,-1.5): dP/du = (2, 1), dP/dv = (0, -1).
+  // First triangle: dP/du = +x. Second: its edges (0, 1) and (-1, 1) are (0, -1) and (-0.5, -1.5) in UV space: dP/du =
+  // (2, 1), dP/dv = (0, -1).
   const glm::dvec3 expected = glm::normalize(kTestPi / 2 * glm::dvec3(1, 0, 0) +
                                              kTestPi / 4 * glm::normalize(glm::dvec3(2, 1, 0)));
   EXPECT_LT(Distance(glm::dvec3(fan.tangents[0]), expected), 1e-6);

@@ -18,16 +18,16 @@ namespace {
 namespace fs = std::filesystem;
 
 // Data flows down this list; an #include points only up it. The stages share a level and never include one another.
-constexpr std::array kRooms = {"base",   "math",  "simd",   "color", "image", "scene", "gltf",  "material",
-                               "texture", "light", "plan",   "frame", "vertex", "clip",  "bin",   "raster",
-                               "shade",  "blend", "resolve", "film", "render", "reference", "report", "cli"};
+constexpr std::array kRooms = {"base",    "math",  "simd",    "color", "image",  "scene",     "gltf",   "material",
+                               "texture", "light", "plan",    "frame", "vertex", "clip",      "bin",    "raster",
+                               "shade",   "blend", "resolve", "film",  "render", "reference", "report", "cli"};
 const std::set<std::string> kStages = {"vertex", "clip", "bin", "raster", "shade", "blend", "resolve"};
 
 // The one file family that may know OpenImageIO: the module that is opened at run time.
 const std::regex kOpenImageIoModule("src/image/oiio[a-z_]*/.*|src/image/[a-z_]*oiio[a-z_]*\\.(cc|h)");
 
 struct Include {
-  std::string file;    // relative to the project
+  std::string file;  // relative to the project
   int line = 0;
   std::string target;  // as written
 };
@@ -130,8 +130,7 @@ TEST(Structure, PublicHeadersIncludeNoRoomAndOnlyGlm) {
   for (const Include& include : IncludesUnder({"include"})) {
     const bool shader = include.file.starts_with("include/facet/shader/");
     const bool allowed = include.target.starts_with("facet/") || include.target.starts_with("glm/") ||
-                         std::regex_match(include.target, standard) ||
-                         (shader && include.target.starts_with("hwy/")) ||
+                         std::regex_match(include.target, standard) || (shader && include.target.starts_with("hwy/")) ||
                          // The processor's own intrinsics, where the instruction set is the subject.
                          (shader && include.target == "immintrin.h");
     EXPECT_TRUE(allowed) << At(include);
@@ -214,8 +213,8 @@ TEST(Structure, FileNamesAreSnakeCase) {
   }
 }
 
-// The bits of a picture depend on the compiler's promise to keep to IEEE 754, and one object file's instruction set must
-// not leak into another's inline functions.
+// The bits of a picture depend on the compiler's promise to keep to IEEE 754, and one object file's instruction set
+// must not leak into another's inline functions.
 TEST(Structure, NoFastMathAndNoInstructionSetFlags) {
   static const std::regex forbidden(
       R"((^|[^o])-ffast-math|-Ofast|-march=|-mcpu=|-mtune=|-m(avx|sse|fma|bmi|f16c)|-ffp-contract=(fast|on)|-fassociative|-freciprocal|-funsafe-math)");
@@ -278,6 +277,27 @@ TEST(Structure, PathsInTheDocumentationExist) {
     }
   }
   EXPECT_GT(checked, 0);
+}
+
+// What the documentation shows of an example is the example.
+TEST(Structure, ExamplesInTheDocumentationAreTheFilesThatAreTested) {
+  const auto read = [](const fs::path& path) {
+    std::ifstream stream(path);
+    std::ostringstream text;
+    text << stream.rdbuf();
+    return text.str();
+  };
+  const std::string page = read(Root() / "docs/library.md");
+  int examples = 0;
+  for (const fs::path& path : FilesUnder({"docs/examples"})) {
+    if (path.extension() != ".cc") continue;
+    EXPECT_NE(page.find("```cpp\n" + read(path) + "```"), std::string::npos) << Relative(path);
+    EXPECT_TRUE(fs::exists(Root() / "tests/examples/CMakeLists.txt"));
+    const std::string tests = read(Root() / "tests/examples/CMakeLists.txt");
+    EXPECT_NE(tests.find(path.stem().string()), std::string::npos) << Relative(path) << " is not run";
+    ++examples;
+  }
+  EXPECT_GE(examples, 1);
 }
 
 }  // namespace

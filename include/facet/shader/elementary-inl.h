@@ -1,9 +1,9 @@
-// Elementary functions: Exp2, Log2, Exp, Log, Pow, Cbrt, Sin, Cos, Atan2, Asin, Acos of T = Float (lanes) or float, with
-// the same bits on every instruction set and for both types; of double through elementary_double.h.
+// Elementary functions: Exp2, Log2, Exp, Log, Pow, Cbrt, Sin, Cos, Atan2, Asin, Acos of T = Float (lanes) or float, the
+// same bits on every instruction set and for both types; of double through elementary_double.h.
 //
 // Each is one fixed sequence of IEEE 754 operations: exact splitting of the argument, then a polynomial from
-// src/math/fit_polynomials.py. Errors in ULP (units in the last place of the exact result) are maxima over all floats of
-// the stated domain; Pow and Atan2, which have two arguments, were searched. tests/math asserts them.
+// src/math/fit_polynomials.py. Errors are in ULP (units in the last place of the exact result); tests/math asserts
+// them, and its ulp_table measures them over all floats of the domain (Pow and Atan2, of two arguments, are searched).
 //
 // Special values are those of IEEE 754-2019, clause 9.2, unless a line says otherwise; NaN in gives NaN out.
 
@@ -25,7 +25,7 @@ HWY_BEFORE_NAMESPACE();
 namespace facet {
 namespace HWY_NAMESPACE {
 
-// --- Integers beside float, as Int stands beside Float ---------------------------------------------------------------
+// --- Integers beside float, as Int stands beside Float --------------------------------------------------------------
 
 template <class T>
 struct IntTraits;
@@ -50,9 +50,11 @@ HWY_INLINE std::int32_t ShiftLeft(std::int32_t a) {
   return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) << kBits);
 }
 template <int kBits>
-HWY_INLINE std::int32_t ShiftRightArithmetic(std::int32_t a) { return a >> kBits; }
+HWY_INLINE std::int32_t ShiftRightArithmetic(std::int32_t a) {
+  return a >> kBits;
+}
 
-// --- Parts -------------------------------------------------------------------------------------------------------------
+// --- Parts ----------------------------------------------------------------------------------------------------------
 
 // c[0] + x (c[1] + x (c[2] + ...)), by Horner's rule.
 template <class T, int kCount>
@@ -64,10 +66,14 @@ HWY_INLINE T Polynomial(T x, const float (&c)[kCount]) {
 
 // The first 12 bits of the significand: the product of two such numbers is exact, and so is x - HighHalf(x).
 template <class T>
-HWY_INLINE T HighHalf(T x) { return FloatFromBits(BitsOf(x) & IntOf<T>(~0xFFF)); }
+HWY_INLINE T HighHalf(T x) {
+  return FloatFromBits(BitsOf(x) & IntOf<T>(~0xFFF));
+}
 
 template <class T>
-HWY_INLINE T QuietNan() { return T(std::numeric_limits<float>::quiet_NaN()); }
+HWY_INLINE T QuietNan() {
+  return T(std::numeric_limits<float>::quiet_NaN());
+}
 
 // x 2^n with one rounding at most, where |x| is in [0.5, 2] and n in [-252, 254].
 template <class T>
@@ -95,12 +101,12 @@ HWY_INLINE Decomposed<T> Decompose(T x) {
 // 2^(n + f) for whole n in [-200, 200] and |f| <= 0.51.
 template <class T>
 HWY_INLINE T Exp2OfParts(T n, T f) {
-  constexpr float kRest[] = {0x1.62e43p-1f,  0x1.ebfbep-3f,   0x1.c6b06cp-5f, 0x1.3b2a54p-7f,
+  constexpr float kRest[] = {0x1.62e43p-1f,   0x1.ebfbep-3f,   0x1.c6b06cp-5f, 0x1.3b2a54p-7f,
                              0x1.5da97cp-10f, 0x1.44175ep-13f, 0x1.da62dcp-17f};
   return ScaleByPowerOfTwo(T(1.0f) + f * Polynomial(f, kRest), TruncateToInt(n));
 }
 
-// --- Exponentials and logarithms ------------------------------------------------------------------------------------------
+// --- Exponentials and logarithms ------------------------------------------------------------------------------------
 
 // 2^x. Below 1.1 ULP, subnormal results included.
 template <class T>
@@ -122,11 +128,11 @@ HWY_INLINE T Exp(T x) {
   return Select(x == x, ScaleByPowerOfTwo(p, TruncateToInt(n)), x);
 }
 
-// log2 x. Below 1 ULP. Log2(+-0) is -infinity, of a negative number NaN.
+// log2 x. Below 1.1 ULP. Log2(+-0) is -infinity, of a negative number NaN.
 template <class T>
 HWY_INLINE T Log2(T x) {
-  constexpr float kRest[] = {-0x1.715476p-1f, 0x1.ec7094p-2f, -0x1.7154c6p-2f, 0x1.277c44p-2f, -0x1.ec654ap-3f,
-                             0x1.a476bep-3f, -0x1.6fe35ep-3f, 0x1.5e1a2ap-3f, -0x1.517e4p-3f, 0x1.82fa3ap-4f};
+  constexpr float kRest[] = {-0x1.715476p-1f, 0x1.ec7094p-2f,  -0x1.7154c6p-2f, 0x1.277c44p-2f, -0x1.ec654ap-3f,
+                             0x1.a476bep-3f,  -0x1.6fe35ep-3f, 0x1.5e1a2ap-3f,  -0x1.517e4p-3f, 0x1.82fa3ap-4f};
   const auto regular = (x > T(0.0f)) & (x < T(HUGE_VALF));
   const Decomposed<T> d = Decompose(Select(regular, x, T(1.0f)));
   const T f = d.significand - T(1.0f);
@@ -144,7 +150,7 @@ HWY_INLINE T Log2(T x) {
 // ln x. Below 1 ULP. Log(+-0) is -infinity, of a negative number NaN.
 template <class T>
 HWY_INLINE T Log(T x) {
-  constexpr float kRest[] = {0x1.555554p-2f,  -0x1.fffff2p-3f, 0x1.999d3ep-3f, -0x1.555ea6p-3f, 0x1.23d80ep-3f,
+  constexpr float kRest[] = {0x1.555554p-2f,  -0x1.fffff2p-3f, 0x1.999d3ep-3f,  -0x1.555ea6p-3f, 0x1.23d80ep-3f,
                              -0x1.fc6382p-4f, 0x1.dd9aaep-4f,  -0x1.d9bfccp-4f, 0x1.24bac2p-4f};
   const auto regular = (x > T(0.0f)) & (x < T(HUGE_VALF));
   const Decomposed<T> d = Decompose(Select(regular, x, T(1.0f)));
@@ -220,7 +226,7 @@ HWY_INLINE T Cbrt(T x) {
   return Select(regular, CopySign(root, x), x);
 }
 
-// --- Circular functions -----------------------------------------------------------------------------------------------------
+// --- Circular functions ---------------------------------------------------------------------------------------------
 
 // |x| = quadrant pi/2 + high + low, |high| <= pi/4, for |x| <= 2^17.
 template <class T>
@@ -259,7 +265,8 @@ HWY_INLINE T SinOfReduced(const ReducedAngle<T>& a, IntOf<T> quarter_turns) {
   const T sin = a.high + (a.high * z * Polynomial(z, kSin) + a.low);
   const T half_square = T(0.5f) * z;
   const T cos_leading = T(1.0f) - half_square;
-  const T cos = cos_leading + (((T(1.0f) - cos_leading) - half_square) + (z * z * Polynomial(z, kCos) - a.high * a.low));
+  const T cos =
+      cos_leading + (((T(1.0f) - cos_leading) - half_square) + (z * z * Polynomial(z, kCos) - a.high * a.low));
   const T result = Select((quadrant & I(1)) == I(1), cos, sin);
   return FloatFromBits(BitsOf(result) ^ ShiftLeft<30>(quadrant & I(2)));
 }
@@ -283,8 +290,8 @@ HWY_INLINE T Cos(T x) {
 // The angle of the vector (x, y) in [-pi, pi]. Below 2 ULP. Zeros and infinities as in C: Atan2(+-0, -0) = +-pi.
 template <class T>
 HWY_INLINE T Atan2(T y, T x) {
-  constexpr float kRest[] = {-0x1.555556p-2f, 0x1.9999bep-3f, -0x1.2490b8p-3f, 0x1.c6a61cp-4f, -0x1.6ff086p-4f,
-                             0x1.256f7cp-4f, -0x1.a1f138p-5f, 0x1.ce2572p-6f, -0x1.4b1c42p-7f, 0x1.bbab1ep-10f};
+  constexpr float kRest[] = {-0x1.555556p-2f, 0x1.9999bep-3f,  -0x1.2490b8p-3f, 0x1.c6a61cp-4f,  -0x1.6ff086p-4f,
+                             0x1.256f7cp-4f,  -0x1.a1f138p-5f, 0x1.ce2572p-6f,  -0x1.4b1c42p-7f, 0x1.bbab1ep-10f};
   const T a = Abs(x), b = Abs(y);
   const auto steep = b > a;
   const T larger = Select(steep, b, a), smaller = Select(steep, a, b);
@@ -305,12 +312,12 @@ HWY_INLINE T Atan2(T y, T x) {
 // asin(s) - s over s for s^2 = z <= 1/4.
 template <class T>
 HWY_INLINE T AsinRest(T z) {
-  constexpr float kRest[] = {0x1.555554p-3f, 0x1.3334c6p-4f, 0x1.6d40ccp-5f, 0x1.ff8616p-6f, 0x1.10f0eap-6f,
-                             0x1.19ecf4p-5f};
+  constexpr float kRest[] = {0x1.555554p-3f, 0x1.3334c6p-4f, 0x1.6d40ccp-5f,
+                             0x1.ff8616p-6f, 0x1.10f0eap-6f, 0x1.19ecf4p-5f};
   return z * Polynomial(z, kRest);
 }
 
-// asin x in [-pi/2, pi/2]. Below 1.5 ULP; NaN for |x| > 1.
+// asin x in [-pi/2, pi/2]. Below 1 ULP; NaN for |x| > 1.
 template <class T>
 HWY_INLINE T Asin(T x) {
   const T magnitude = Abs(x);
@@ -321,8 +328,7 @@ HWY_INLINE T Asin(T x) {
   // pi/2 - 2 asin(s) with s = s_high + s_low: the first difference is exact.
   const T s_high = HighHalf(s);
   const T s_low = Select(s > T(0.0f), (z - s_high * s_high) / (s + s_high), T(0.0f));
-  const T outer_result =
-      (T(0x1.921fb6p+0f) - T(2.0f) * s_high) - (T(2.0f) * (s_low + rest) + T(0x1.777a5cp-25f));
+  const T outer_result = (T(0x1.921fb6p+0f) - T(2.0f) * s_high) - (T(2.0f) * (s_low + rest) + T(0x1.777a5cp-25f));
   const T result = Select(outer, outer_result, s + rest);
   return Select(magnitude <= T(1.0f), CopySign(result, x), QuietNan<T>());
 }
@@ -341,7 +347,7 @@ HWY_INLINE T Acos(T x) {
   return Select(magnitude <= T(1.0f), Select(outer, outer_result, inner_result), QuietNan<T>());
 }
 
-// --- The same for double -----------------------------------------------------------------------------------------------
+// --- The same for double --------------------------------------------------------------------------------------------
 
 HWY_INLINE double Exp2(double x) { return ::facet::Exp2(x); }
 HWY_INLINE double Exp(double x) { return ::facet::Exp(x); }

@@ -1,0 +1,146 @@
+// GLB and JSON: told apart by content, cut short at every byte, nested too deep, of the wrong version.
+#include <gtest/gtest.h>
+
+#include "gltf_files.h"
+
+namespace facet {
+namespace {
+
+using testing::FileMaker;
+using testing::Glb;
+using testing::LoadBytes;
+using testing::LoadError;
+using testing::TempFolder;
+using testing::U32;
+
+const std::string kEmpty = R"({"asset":{"version":"2.0"}})";
+
+std::string SmallGlb() {
+  FileMaker file;
+  file.Attribute("POSITION", file.Triangle());
+  return file.AsGlb();
+}
+
+TEST(Container, ContentDecidesNotTheName) {
+  const TempFolder folder;
+  EXPECT_EQ(LoadGltf(folder.Write("a.gltf", SmallGlb())).scene.meshes.size(), 1u);
+  EXPECT_EQ(LoadGltf(folder.Write("b.glb", kEmpty)).scene.meshes.size(), 0u);
+  EXPECT_EQ(LoadGltf(folder.Write("c.gltf", "\xEF\xBB\xBF" + kEmpty)).report.version, "2.0") << "byte order mark";
+}
+
+TEST(Container, EveryTruncationIsAnError) {
+  const std::string whole = SmallGlb();
+  const TempFolder folder;
+  for (std::size_t length = 0; length < whole.size(); ++length) {
+    const auto path = folder.Write("cut.glb", whole.substr(0, length));
+    EXPECT_THROW(LoadGltf(path), Error) << length;
+  }
+  EXPECT_NO_THROW(LoadGltf(folder.Write("whole.glb", whole)));
+}
+
+TEST(Container, TruncatedChunksInsideAConsistentHeaderAreErrors) {
+  const std::string whole = SmallGlb();
+  const TempFolder folder;
+  std::uint32_t json_size = 0;
+  std::memcpy(&json_size, whole.data() + 12, sizeof json_size);
+  for (std::size_t length = 12; length < whole.size(); ++length) {
+    std::string cut = whole.substr(0, length);
+    cut.replace(8, 4, U32(length));
+    const auto path = folder.Write("cut.glb", cut);
+    const bool at_chunk = length == 20 + json_size;  // a GLB without a BIN chunk, whose buffer has no data
+    if (at_chunk) {
+      EXPECT_FALSE(LoadGltf(path).report.warnings.empty());
+    } else {
+      EXPECT_THROW(LoadGltf(path), Error) << length;
+    }
+  }
+}
+
+TEST(Container, GarbageAndFlippedBytesNeverCrash) {
+  const std::string whole = SmallGlb();
+  const TempFolder folder;
+  std::uint32_t state = 12345;
+  for (int round = 0; round < 2000; ++round) {
+    std::string bytes = whole;
+    for (int flips = 0; flips < 3; ++flips) {
+      state = state * 1664525u + 1013904223u;
+      bytes[(state >> 8) % bytes.size()] = static_cast<char>(state >> 24);
+    }
+    try {
+      LoadGltf(folder.Write("bad.glb", bytes));
+    } catch (const Error& error) {
+      EXPECT_NE(error.code(), ErrorCode::Internal) << error.what();
+    }
+  }
+}
+
+TEST(Container, ChunkRules) {
+  EXPECT_NE(LoadError("glTF" + U32(1) + U32(20) + U32(0) + "JSON", ErrorCode::Unsupported).find("version 1"),
+            std::string::npos);
+  LoadError("glTF" + U32(2) + U32(20) + U32(0) + std::string("BIN\0", 4), ErrorCode::InvalidInput);
+  LoadError("glTF" + U32(2) + U32(20) + U32(0xFFFFFFFF) + "JSON", ErrorCode::InvalidInput);
+  // An unknown chunk after JSON is skipped.
+  std::string json = kEmpty;
+  while (json.size() % 4) json += ' ';
+  const std::string chunks = U32(json.size()) + "JSON" + json + U32(4) + "ABCD" + "....";
+  EXPECT_TRUE(LoadBytes("glTF" + U32(2) + U32(12 + chunks.size()) + chunks).report.warnings.empty());
+  // Bytes after the declared end are ignored, and said to be.
+  EXPECT_EQ(LoadBytes(Glb(kEmpty) + "tail").report.warnings.size(), 1u);
+}
+
+TEST(Container, NestingIsBounded) {
+  for (const std::size_t depth : {std::size_t(200), std::size_t(1000000)}) {
+    const std::string bomb =
+        R"({"asset":{"version":"2.0"},"extras":)" + std::string(depth, '[') + std::string(depth, ']') + "}";
+    EXPECT_NE(LoadError(bomb, ErrorCode::InvalidInput).find("nested"), std::string::npos);
+  }
+  // Brackets in strings do not count.
+  EXPECT_NO_THROW(LoadBytes(R"({"asset":{"version":"2.0","generator":"\")" + std::string(1000, '[') + R"("}})"));
+}
+
+TEST(Container, NotGltfAtAll) {
+  LoadError("", ErrorCode::InvalidInput);
+  LoadError("PNG", ErrorCode::InvalidInput);
+  LoadError("[]", ErrorCode::InvalidInput);
+  LoadError("{}", ErrorCode::InvalidInput);
+  LoadError(R"({"asset":{"version":"\xff"}})", ErrorCode::InvalidInput);
+  LoadError(R"({"asset":{"version":"2.0"},"scene":"0"})", ErrorCode::InvalidInput);
+  LoadError(R"({"asset":{"version":"1.0"}})", ErrorCode::Unsupported);
+  LoadError(R"({"asset":{"version":"2.1","minVersion":"2.1"}})", ErrorCode::Unsupported);
+  EXPECT_THROW(LoadGltf("/nonexistent/file.glb"), Error);
+  const TempFolder folder;
+  try {
+    LoadGltf(folder.Path());
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::NotFound);
+  }
+}
+
+TEST(Container, ReportSaysWhatTheAssetSays) {
+  const LoadedScene loaded = LoadBytes(
+      R"({"asset":{"version":"2.0","generator":"g","copyright":"c"},
+          "extensionsUsed":["KHR_b","KHR_materials_unlit","A_c"],
+          "extras":{"deep":[1,2]}})");
+  EXPECT_EQ(loaded.report.generator, "g");
+  EXPECT_EQ(loaded.report.copyright, "c");
+  ASSERT_EQ(loaded.report.extensions.size(), 3u);
+  EXPECT_EQ(loaded.report.extensions[0].name, "A_c");
+  EXPECT_FALSE(loaded.report.extensions[1].supported);
+  EXPECT_TRUE(loaded.report.extensions[2].supported);
+  EXPECT_EQ(loaded.report.warnings, (std::vector<std::string>{"extensionsUsed: ignored: A_c is not supported",
+                                                              "extensionsUsed: ignored: KHR_b is not supported"}));
+}
+
+TEST(Container, RequiredExtensionsAreRefusedByName) {
+  const std::string json = R"({"asset":{"version":"2.0"},"extensionsUsed":["KHR_x","EXT_y","KHR_texture_transform"],
+                               "extensionsRequired":["KHR_x","EXT_y","KHR_texture_transform"]})";
+  const std::string message = LoadError(json, ErrorCode::Unsupported);
+  EXPECT_NE(message.find("requires EXT_y, KHR_x,"), std::string::npos) << message;
+  LoadOptions options;
+  options.ignore_required_extensions = true;
+  EXPECT_EQ(LoadBytes(json, options).report.warnings.size(), 2u);
+}
+
+}  // namespace
+}  // namespace facet

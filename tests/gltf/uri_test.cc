@@ -1,0 +1,107 @@
+#include "gltf/uri.h"
+
+#include <gtest/gtest.h>
+
+#include "gltf_files.h"
+
+namespace facet {
+namespace {
+
+using gltf::DecodeBase64;
+using gltf::DecodeDataUri;
+using gltf::PercentDecode;
+using testing::Base64;
+using testing::FileMaker;
+using testing::TempFolder;
+
+std::string Text(const std::optional<gltf::Bytes>& bytes) {
+  return bytes ? std::string(reinterpret_cast<const char*>(bytes->data), bytes->size) : "(malformed)";
+}
+
+TEST(Uri, PercentDecoding) {
+  EXPECT_EQ(PercentDecode("a%20b%2Fc"), "a b/c");
+  EXPECT_EQ(PercentDecode("%C3%A9"), "\xC3\xA9");
+  EXPECT_EQ(PercentDecode("100%"), "100%");
+  EXPECT_EQ(PercentDecode("%4"), "%4");
+  EXPECT_EQ(PercentDecode("%zz%41"), "%zzA");
+}
+
+TEST(Uri, Base64OfEveryLengthAndItsMistakes) {
+  EXPECT_EQ(Text(DecodeBase64("")), "");  // RFC 4648, section 10
+  EXPECT_EQ(Text(DecodeBase64("Zg==")), "f");
+  EXPECT_EQ(Text(DecodeBase64("Zm8=")), "fo");
+  EXPECT_EQ(Text(DecodeBase64("Zm9v")), "foo");
+  EXPECT_EQ(Text(DecodeBase64("Zm9vYg")), "foob") << "padding may be left out";
+  EXPECT_EQ(Text(DecodeBase64("-_-_")), Text(DecodeBase64("+/+/")));
+  EXPECT_EQ(Text(DecodeBase64("Zm9v!")), "(malformed)");
+  EXPECT_EQ(Text(DecodeBase64("Z")), "(malformed)");
+  EXPECT_EQ(Text(DecodeBase64("Zm 9")), "(malformed)");
+  std::string every;
+  for (int i = 0; i < 256; ++i) every += static_cast<char>(i);
+  for (std::size_t length = 0; length < every.size(); ++length) {
+    ASSERT_EQ(Text(DecodeBase64(Base64(every.substr(0, length)))), every.substr(0, length));
+  }
+}
+
+TEST(Uri, DataUris) {
+  EXPECT_EQ(Text(DecodeDataUri("data:application/octet-stream;base64,Zm9v")), "foo");
+  EXPECT_EQ(Text(DecodeDataUri("DATA:;base64,Zm9v")), "foo");
+  EXPECT_EQ(Text(DecodeDataUri("data:;base64,Zm9%76")), "foo");
+  EXPECT_EQ(Text(DecodeDataUri("data:text/plain,a%20b%00c")), std::string("a b\0c", 5));
+  EXPECT_EQ(Text(DecodeDataUri("data:application/octet-stream;base64")), "(malformed)");
+}
+
+TEST(Uri, OnlyRelativeReferencesAreFollowed) {
+  EXPECT_FALSE(gltf::ResolveRelative("/folder", "https://example.com/a.bin"));
+  EXPECT_FALSE(gltf::ResolveRelative("/folder", "file:///etc/hostname"));
+  EXPECT_FALSE(gltf::ResolveRelative("/folder", "/etc/hostname"));
+  EXPECT_FALSE(gltf::ResolveRelative("/folder", "a%00b"));
+  EXPECT_EQ(gltf::ResolveRelative("/folder", "sub/a%20b.bin"), std::filesystem::path("/folder/sub/a b.bin"));
+}
+
+// The buffer's file is called `file_name`, and the glTF file calls it `uri`.
+LoadedScene LoadBeside(const std::string& file_name, const std::string& uri) {
+  const TempFolder folder;
+  FileMaker file;
+  file.Attribute("POSITION", file.Triangle());
+  folder.Write(file_name, file.Bin());
+  return LoadGltf(folder.Write("sc\xC3\xA8ne \xE6\x97\xA5.gltf", file.Json(uri)));
+}
+
+TEST(Uri, BufferFileNames) {
+  for (const auto& [name, uri] : {std::pair<const char*, const char*>{"plain.bin", "plain.bin"},
+                                  {"with space.bin", "with%20space.bin"},
+                                  {"with space.bin", "with space.bin"},
+                                  {"gr\xC3\xBC\xC3\x9F.bin", "gr\xC3\xBC\xC3\x9F.bin"},
+                                  {"gr\xC3\xBC\xC3\x9F.bin", "gr%C3%BC%C3%9F.bin"},
+                                  {"gr\xC3\xBC.bin", "gr\\u00fc.bin"},
+                                  {"100%.bin", "100%.bin"},
+                                  {"100%25.bin", "100%25.bin"},
+                                  {"a+b&c.bin", "a+b&c.bin"}}) {
+    const LoadedScene loaded = LoadBeside(name, uri);
+    EXPECT_EQ(loaded.scene.meshes.at(0).primitives.at(0).positions.at(1), glm::vec3(1, 0, 0)) << uri;
+    EXPECT_TRUE(loaded.report.warnings.empty()) << uri;
+  }
+}
+
+TEST(Uri, MissingBufferNamesTheFile) {
+  try {
+    LoadBeside("there.bin", "not%20there.bin");
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::NotFound);
+    EXPECT_NE(std::string(error.what()).find("buffers[0].uri"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("not there.bin"), std::string::npos) << error.what();
+  }
+}
+
+TEST(Uri, EmbeddedBuffer) {
+  FileMaker file;
+  file.Attribute("POSITION", file.Triangle());
+  const LoadedScene loaded =
+      testing::LoadBytes(file.Json("data:application/octet-stream;base64," + Base64(file.Bin())));
+  EXPECT_EQ(loaded.scene.meshes.at(0).primitives.at(0).positions.at(2), glm::vec3(0, 1, 0));
+}
+
+}  // namespace
+}  // namespace facet
