@@ -76,7 +76,8 @@ HWY_INLINE Surface<Float> InterpolateSurface(const ShadeTask& task, std::size_t 
     s.view = task.orthographic ? Vec3<Float>{Float(task.view_direction[0]), Float(task.view_direction[1]),
                                              Float(task.view_direction[2])}
                                : NormalizeOr(-s.position, up);
-    s.normal = NormalizeOr(InterpolateVec3(setups, base, w, SetupLayout::kNormals, 3), s.view);
+    s.interpolated_normal = InterpolateVec3(setups, base, w, SetupLayout::kNormals, 3);
+    s.normal = NormalizeOr(s.interpolated_normal, s.view);
   }
   if (material.Has(kNormalTexture)) {
     const Vec3<Float> t = InterpolateVec3(setups, base, w, SetupLayout::kTangents, 4);

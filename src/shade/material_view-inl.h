@@ -46,8 +46,8 @@ class MaterialView {
     const Vec3<T> n{(texel.x * T(2.0f) - T(1.0f)) * scale, (texel.y * T(2.0f) - T(1.0f)) * scale,
                     texel.z * T(2.0f) - T(1.0f)};
     // As MikkTSpace demands, the bitangent is made here, from the interpolated vectors, which are not normalised.
-    const Vec3<T> tangent = Xyz(s.tangent), bitangent = Cross(s.normal, tangent) * s.tangent.w;
-    return NormalizeOr(tangent * n.x + bitangent * n.y + s.normal * n.z, s.normal);
+    const Vec3<T> tangent = Xyz(s.tangent), bitangent = Cross(s.interpolated_normal, tangent) * s.tangent.w;
+    return NormalizeOr(tangent * n.x + bitangent * n.y + s.interpolated_normal * n.z, s.normal);
   }
 
   HWY_INLINE Vec3<T> Emissive(const Surface<T>& s) const {

