@@ -33,7 +33,7 @@ TIE = 1.01 / 255
 # The engines' pictures were drawn at the size of SCENES.tsv or a multiple of it, then averaged to 512 pixels a row; so
 # are facet's. At 512 pixels, 8 samples leave many pixels of a silhouette exactly half covered.
 SUPERSAMPLING = 2
-# The built-in studio, turned and dimmed so that it lights the scenes from where the engines' absent environment does: of
+# The built-in studio, turned and dimmed to light the scenes from where the engines' absent environment does: of
 # eight directions the one whose pictures correlate best with theirs.
 STUDIO_SPEARMAN = 0.7  # what the median correlation under it must reach: 0.765 when this was written
 STUDIO = ["--environment-rotation", "135", "--environment-intensity", "0.5"]

@@ -40,9 +40,11 @@ run(${WORK_DIR}/consumer/consumer)
 message(STATUS "${output}")
 
 # With files, and the scene that was installed.
-build(file_consumer -DEXAMPLE=${EXAMPLE})
+build(file_consumer -DEXAMPLES=${EXAMPLES})
 file(GLOB scene ${prefix}/share/facet/scenes/showcase.glb)
 run(${WORK_DIR}/file_consumer/file_consumer ${scene} ${WORK_DIR}/showcase.png)
+message(STATUS "${output}")
+run(${WORK_DIR}/file_consumer/shader_consumer ${scene} ${WORK_DIR}/toon.png)
 message(STATUS "${output}")
 
 # The program, as it was installed.
