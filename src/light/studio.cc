@@ -52,7 +52,10 @@ class SoftBox {
   double half_width_, half_height_, softness_, radiance_;
 };
 
-// The room before it is scaled to mean 1. Cameras stand at +Z by default: the key light is behind their left shoulder.
+// White that faces the lamps comes out just below white at exposure 0.
+constexpr double kMeanRadiance = 0.65;
+
+// The room before it is scaled. Cameras stand at +Z by default: the key light is behind their left shoulder.
 class Room {
  public:
   double Radiance(glm::dvec3 d) const {
@@ -101,7 +104,7 @@ Image StudioPicture(int width, int height) {
     for (int i = 0; i < width; ++i) sum += solid_angle * radiance[std::size_t(row) * width + i];
     weight += solid_angle * width;
   }
-  const double scale = weight / sum;
+  const double scale = kMeanRadiance * weight / sum;
   Image image;
   image.width = width;
   image.height = height;

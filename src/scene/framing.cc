@@ -1,0 +1,66 @@
+#include "scene/framing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <mutex>
+
+#include "base/parallel.h"
+
+namespace facet {
+namespace {
+
+constexpr double kNothing = -std::numeric_limits<double>::infinity();
+constexpr std::size_t kGrain = 16384;  // vertices
+
+// The five measures are linear in the position: one row each.
+struct Rows {
+  glm::dvec4 row[5];
+
+  // Of positions in world space relative to `target`.
+  Rows(const glm::dvec3& target, const CameraAxes& axes, double tan_x, double tan_y) {
+    const glm::dvec3 direction[5] = {axes.right + tan_x * axes.back, tan_x * axes.back - axes.right,
+                                     axes.up + tan_y * axes.back, tan_y * axes.back - axes.up, axes.back};
+    for (int i = 0; i < 5; ++i) row[i] = glm::dvec4(direction[i], -glm::dot(direction[i], target));
+  }
+  // Of positions in mesh space.
+  Rows(const Rows& world, const glm::dmat4& world_from_mesh) {
+    for (int i = 0; i < 5; ++i) row[i] = world.row[i] * world_from_mesh;
+  }
+
+  void Include(const glm::dvec3& position, double (&largest)[5]) const {
+    for (int i = 0; i < 5; ++i) {
+      const double value = glm::dot(row[i], glm::dvec4(position, 1.0));
+      if (std::isfinite(value)) largest[i] = std::max(largest[i], value);
+    }
+  }
+};
+
+}  // namespace
+
+ViewExtent MeasureView(const PosedScene& posed, const glm::dvec3& target, const CameraAxes& axes, double tan_x,
+                       double tan_y) {
+  const Rows world(target, axes, tan_x, tan_y);
+  double largest[5] = {kNothing, kNothing, kNothing, kNothing, kNothing};
+  std::mutex mutex;
+  for (const Drawable& drawable : posed.drawables) {
+    const Rows rows(world, drawable.world_from_mesh);
+    const std::vector<glm::vec3>& positions = drawable.geometry->positions;
+    ParallelFor(positions.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+      double own[5] = {kNothing, kNothing, kNothing, kNothing, kNothing};
+      for (std::size_t i = begin; i < end; ++i) rows.Include(glm::dvec3(positions[i]), own);
+      const std::lock_guard lock(mutex);  // a maximum is the same in any order
+      for (int i = 0; i < 5; ++i) largest[i] = std::max(largest[i], own[i]);
+    });
+  }
+  if (largest[4] == kNothing) {
+    const Bounds& b = posed.bounds;
+    const glm::dvec3 low = b.empty ? glm::dvec3(-0.5) : b.low, high = b.empty ? glm::dvec3(0.5) : b.high;
+    for (int i = 0; i < 8; ++i) {
+      world.Include({i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z}, largest);
+    }
+  }
+  return {largest[0], largest[1], largest[2], largest[3], largest[4]};
+}
+
+}  // namespace facet
