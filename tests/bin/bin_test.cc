@@ -1,0 +1,120 @@
+// Bins: no tile that a triangle touches is left out, and order is kept.
+#include "bin/bin_triangles.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <tuple>
+
+#include "raster/raster_helpers.h"
+
+namespace facet::test {
+namespace {
+
+constexpr int kWidth = 150, kHeight = 90;
+
+std::vector<TriangleRecord> MixedRecords(Random& random) {
+  std::vector<TriangleRecord> records;
+  const auto add = [&](PointFx8 a, PointFx8 b, PointFx8 c) {
+    if (DoubleArea(a, b, c) != 0) records.push_back(MakeRecord(a, b, c));
+  };
+  const auto inside = [&] { return PointFx8{random.Int(-2000, kWidth * 256 + 2000), random.Int(-2000, kHeight * 256 + 2000)}; };
+  for (int i = 0; i < 60; ++i) add(inside(), inside(), inside());
+  for (int i = 0; i < 60; ++i) {  // thin diagonals
+    const PointFx8 a = inside(), b = inside();
+    add(a, b, {a.x + random.Int(-40, 40), a.y + random.Int(-40, 40)});
+  }
+  for (int i = 0; i < 60; ++i) {  // small ones, many on tile corners
+    const PointFx8 a = {random.Int(0, kWidth / 8) * 2048 + random.Int(-1, 1), random.Int(0, kHeight / 8) * 2048 + random.Int(-1, 1)};
+    add(a, {a.x + random.Int(-300, 300), a.y + random.Int(-300, 300)}, {a.x + random.Int(-300, 300), a.y + random.Int(-300, 300)});
+  }
+  const int far = 4000000;
+  add({-far, -far}, {far, -far}, {0, far});                        // everything
+  add({-far, -far}, {far, far}, {far, far - 700});                 // a diagonal from end to end
+  add({-far, kHeight * 128}, {far, kHeight * 128 + 60}, {far, kHeight * 128 + 200});
+  add({kWidth * 256, 0}, {kWidth * 256 + 500, 0}, {kWidth * 256, 900});    // just outside
+  add({-500, -500}, {0, -500}, {-500, 0});
+  return records;
+}
+
+using Fragment = std::tuple<std::int32_t, int, int, int>;  // record, x, y, samples
+
+TEST(Bin, TilesHoldAllThatBruteForceFinds) {
+  for (std::uint64_t seed = 31; seed < 34; ++seed) {
+    Random random(seed);
+    TriangleChunk source;
+    source.records = MixedRecords(random);
+    std::set<Fragment> expected;
+    constexpr int kSamples = 4;
+    for (std::size_t i = 0; i < source.records.size(); ++i) {
+      for (int y = 0; y < kHeight; ++y) {
+        for (int x = 0; x < kWidth; ++x) {
+          int bits = 0;
+          for (int s = 0; s < kSamples; ++s) bits |= int{CoversExactly(source.records[i], SampleAt(x, y, kSamples, s))} << s;
+          if (bits != 0) expected.emplace(static_cast<std::int32_t>(i), x, y, bits);
+        }
+      }
+    }
+    for (const int tile_size : kTileSizes) {
+      SCOPED_TRACE("seed " + std::to_string(seed) + ", tiles of " + std::to_string(tile_size));
+      const TileGrid grid = MakeTileGrid(kWidth, kHeight, tile_size);
+      TriangleChunk chunk = source;
+      BinChunk(grid, chunk);
+      ASSERT_EQ(chunk.begin.size(), chunk.tiles.size() + 1);
+      ASSERT_EQ(chunk.begin.back(), chunk.entries.size());
+      std::set<Fragment> got;
+      std::set<std::uint32_t> tiles;
+      for (std::size_t t = 0; t < chunk.tiles.size(); ++t) {
+        EXPECT_TRUE(tiles.insert(chunk.tiles[t]).second) << "a tile comes twice";
+        ASSERT_LT(chunk.tiles[t], static_cast<std::uint32_t>(grid.Count()));
+        ASSERT_LT(chunk.begin[t], chunk.begin[t + 1]) << "an empty run";
+        std::vector<const TriangleRecord*> pointers;
+        std::vector<std::int32_t> numbers;
+        for (std::uint32_t e = chunk.begin[t]; e < chunk.begin[t + 1]; ++e) {
+          if (e > chunk.begin[t]) EXPECT_LT(chunk.entries[e - 1], chunk.entries[e]) << "submission order";
+          pointers.push_back(&chunk.records[chunk.entries[e]]);
+          numbers.push_back(static_cast<std::int32_t>(chunk.entries[e]));
+        }
+        const int number = static_cast<int>(chunk.tiles[t]);
+        const TileBuffers tile = MakeTile(grid, number % grid.columns, number / grid.columns, kSamples);
+        FragmentList fragments;
+        RasterCollect({pointers.data(), numbers.data(), pointers.size()}, tile, fragments);
+        for (std::size_t i = 0; i < fragments.Size(); ++i) {
+          got.emplace(fragments.record[i], tile.x0 + fragments.pixel[i] % tile_size, tile.y0 + fragments.pixel[i] / tile_size,
+                      fragments.samples[i]);
+        }
+      }
+      EXPECT_TRUE(got == expected) << got.size() << " fragments, not " << expected.size();
+    }
+  }
+}
+
+// A thin diagonal is not put into every tile of its bounding box.
+TEST(Bin, ThinDiagonalsTouchFewTiles) {
+  const TileGrid grid = MakeTileGrid(1024, 1024, 32);
+  TriangleChunk chunk;
+  chunk.records = {MakeRecord({0, 0}, {1024 * 256, 1024 * 256}, {1024 * 256, 1024 * 256 - 100})};
+  BinChunk(grid, chunk);
+  EXPECT_GE(chunk.tiles.size(), 32u);
+  EXPECT_LE(chunk.tiles.size(), 3u * 32u);
+}
+
+TEST(Bin, NothingForRecordsOutsideThePicture) {
+  const TileGrid grid = MakeTileGrid(100, 100, 16);
+  TriangleChunk chunk;
+  chunk.records = {MakeRecord({-900, 0}, {-100, 0}, {-500, 900}), MakeRecord({0, -900}, {900, -900}, {0, -10}),
+                   MakeRecord({112 * 256, 0}, {120 * 256, 0}, {112 * 256, 2000}), MakeRecord({0, 112 * 256}, {900, 112 * 256}, {0, 113 * 256})};
+  BinChunk(grid, chunk);
+  EXPECT_TRUE(chunk.entries.empty());
+  EXPECT_TRUE(chunk.tiles.empty());
+}
+
+TEST(Bin, EmptyChunk) {
+  TriangleChunk chunk;
+  BinChunk(MakeTileGrid(10, 10, 8), chunk);
+  EXPECT_TRUE(chunk.entries.empty());
+  EXPECT_EQ(chunk.begin, std::vector<std::uint32_t>{0});
+}
+
+}  // namespace
+}  // namespace facet::test
