@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,6 +39,16 @@ struct Image {
   T* As() { return reinterpret_cast<T*>(bytes.data()); }
 };
 
+// What an encoded picture says of itself at its start. 0 (or empty) where it is not known.
+struct ImageHeader {
+  std::string format;     // "PNG", "JPEG", "WebP", "KTX2" or "Radiance HDR"; empty for a picture that is in memory
+  int width = 0;          // pixels
+  int height = 0;         // pixels
+  int channels = 0;       // those of the decoded picture: a palette counts as RGB or RGBA, CMYK as RGB
+  int bits = 0;           // of a channel, likewise: grey of 1 bit counts as 8, Radiance HDR as 32
+  std::size_t bytes = 0;  // of the whole encoded picture
+};
+
 // A picture that is decoded only when it is needed. Implementations are immutable and thread-safe.
 class ImageSource {
  public:
@@ -46,9 +57,12 @@ class ImageSource {
   virtual Image Decode() const = 0;
   // What a message calls it: a file name, or "image 3 of scene.glb".
   virtual std::string Name() const = 0;
+  // What the first bytes say, without decoding; nullopt where they say nothing, or are not there. It is no promise that
+  // Decode() succeeds. Throws nothing but what the lack of memory makes it throw.
+  virtual std::optional<ImageHeader> Header() const { return std::nullopt; }
 };
 
-// An ImageSource over a picture that is already in memory.
+// An ImageSource over a picture that is already in memory. Its header has no format, and the pixels' size in bytes.
 std::shared_ptr<const ImageSource> MakeImageSource(Image image, std::string name);
 
 }  // namespace facet

@@ -49,7 +49,8 @@ using CameraChoice = std::variant<AutoCamera, OrbitCamera, SceneCamera, FreeCame
 
 // --- Light -----------------------------------------------------------------------------------------------------------
 
-// Light from all around. The picture is equirectangular: its centre column lies towards +X... see docs/conventions.md.
+// Light from all around. The picture is equirectangular: its centre column lies towards +X, +Z is a quarter further to the right
+// (docs/conventions.md).
 struct EnvironmentSettings {
   enum class Kind : std::uint8_t { Studio, None, Image };
   Kind kind = Kind::Studio;
@@ -91,9 +92,9 @@ struct RenderStats {
   std::uint64_t drawables = 0;
   std::uint64_t vertices = 0;
   std::uint64_t triangles_in = 0;        // as the scene states them, points and lines included
-  std::uint64_t triangles_culled = 0;    // back faces and degenerate ones
+  std::uint64_t triangles_culled = 0;    // back faces, and those that cannot cover a sample; pieces of clipped ones too
   std::uint64_t triangles_clipped = 0;   // cut by a plane, or wholly outside
-  std::uint64_t triangles_binned = 0;    // reached at least one tile
+  std::uint64_t triangles_binned = 0;    // screen triangles: pieces count apart, a point or line is two
   std::uint64_t tiles = 0;
   std::uint64_t fragments_shaded = 0;    // opaque and masked
   std::uint64_t fragments_blended = 0;
@@ -103,6 +104,7 @@ struct RenderStats {
   std::uint64_t non_finite_fragments = 0;  // replaced by black, see docs/conventions.md
   std::string target;                    // instruction set: SCALAR, SSE4, AVX2 or AVX3
   int threads = 0;
+  std::vector<std::string> left_out;     // what the frame did without, one line each: "WHAT: WHY"
   std::vector<std::string> warnings;     // images that could not be decoded, and the like
 };
 

@@ -9,8 +9,8 @@
 
 #include "base/float_environment.h"
 
-// TBB's library is not compiled for the thread sanitizer, which then misses that a task starts after it was made and ends
-// before it was waited for. It is told so here; tasks of one call stay unordered among themselves.
+// TBB's library is not compiled for the thread sanitizer, which then misses that a task starts after it was made and
+// ends before it was waited for. It is told so here; tasks of one call stay unordered among themselves.
 #if defined(__SANITIZE_THREAD__)
 #define FACET_THREAD_SANITIZER 1
 #elif defined(__has_feature)
@@ -32,8 +32,9 @@ namespace facet {
 void RunWithThreads(int threads, const std::function<void()>& body) {
   const FloatEnvironment pinned;
   // More threads than cores are granted only on demand (they serve tests of determinism).
-  const std::size_t wanted = std::max<std::size_t>(
-      static_cast<std::size_t>(threads), tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+  const std::size_t wanted =
+      std::max<std::size_t>(static_cast<std::size_t>(threads),
+                            tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
   const tbb::global_control allowance(tbb::global_control::max_allowed_parallelism, wanted);
   tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
   arena.execute([&] { body(); });
@@ -51,11 +52,18 @@ void ParallelFor(std::size_t count, std::size_t grain, const std::function<void(
   if (pieces == 1) return run(0);
   [[maybe_unused]] char started = 0, ended = 0;
   FACET_RELEASE(&started);
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, pieces, 1), [&](const tbb::blocked_range<std::size_t>& range) {
-    FACET_ACQUIRE(&started);
-    for (std::size_t piece = range.begin(); piece != range.end(); ++piece) run(piece);
-    FACET_RELEASE(&ended);
-  }, tbb::simple_partitioner());
+  // Isolated: while it waits for the last pieces of an inner loop, a thread must not begin a piece of an outer one, or
+  // the memory of both would be in use at once.
+  tbb::this_task_arena::isolate([&] {
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, pieces, 1),
+        [&](const tbb::blocked_range<std::size_t>& range) {
+          FACET_ACQUIRE(&started);
+          for (std::size_t piece = range.begin(); piece != range.end(); ++piece) run(piece);
+          FACET_RELEASE(&ended);
+        },
+        tbb::simple_partitioner());
+  });
   FACET_ACQUIRE(&ended);
 }
 

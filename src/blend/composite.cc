@@ -3,62 +3,53 @@
 #include <algorithm>
 
 namespace facet {
-namespace {
 
-// First entry per pixel of a list, counting sort: entries of pixel p are order[first[p]] to order[first[p + 1] - 1].
-struct ByPixel {
-  std::vector<std::uint32_t> first, order;
+void Compositor::ByPixel::Fill(const FragmentList& list, std::size_t pixel_count) {
+  first.assign(pixel_count + 1, 0);
+  order.resize(list.Size());
+  for (const std::uint16_t p : list.pixel) ++first[p + 1u];
+  for (std::size_t p = 0; p < pixel_count; ++p) first[p + 1] += first[p];
+  next.assign(first.begin(), first.end() - 1);
+  for (std::size_t i = 0; i < list.Size(); ++i) order[next[list.pixel[i]]++] = static_cast<std::uint32_t>(i);
+}
 
-  ByPixel(const FragmentList& list, std::size_t pixel_count) : first(pixel_count + 1, 0), order(list.Size()) {
-    for (const std::uint16_t p : list.pixel) ++first[p + 1u];
-    for (std::size_t p = 0; p < pixel_count; ++p) first[p + 1] += first[p];
-    std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
-    for (std::size_t i = 0; i < list.Size(); ++i) order[next[list.pixel[i]]++] = static_cast<std::uint32_t>(i);
-  }
-};
-
-struct Layer {
-  float depth;
-  std::uint32_t fragment;
-};
-
-}  // namespace
-
-void CompositeBlended(const TileBuffers& tile, const ShadedFragments& opaque, const ShadedFragments& blended,
-                      const RecordTable& records, const std::vector<glm::vec4>* background,
-                      std::vector<glm::vec4>& pixels) {
+void Compositor::Run(const TileBuffers& tile, const ShadedFragments& opaque, const ShadedFragments& blended,
+                     const RecordTable& records, const std::vector<glm::vec4>* background,
+                     std::vector<glm::vec4>& pixels) {
   const std::size_t pixel_count = pixels.size();
-  const ByPixel layers_of(blended.list, pixel_count), opaque_of(opaque.list, pixel_count);
+  layers_of_.Fill(blended.list, pixel_count);
+  opaque_of_.Fill(opaque.list, pixel_count);
   const SamplePosition* pattern = SamplePattern(tile.samples);
   const float share = 1.0f / static_cast<float>(tile.samples);
-  std::vector<BlockDepth> planes;
-  std::vector<Layer> layers;
   for (std::size_t p = 0; p < pixel_count; ++p) {
-    const std::uint32_t begin = layers_of.first[p], end = layers_of.first[p + 1];
+    const std::uint32_t begin = layers_of_.first[p], end = layers_of_.first[p + 1];
     if (begin == end) continue;
     const int x = static_cast<int>(p) % tile.tile_size, y = static_cast<int>(p) / tile.tile_size;
     const int block_x = x / kBlockSize * kBlockSize, block_y = y / kBlockSize * kBlockSize;
-    planes.clear();
+    planes_.clear();
     for (std::uint32_t k = begin; k < end; ++k) {
-      planes.push_back(MakeBlockDepth(records.Record(blended.list.record[layers_of.order[k]]), tile.x0 + block_x,
-                                      tile.y0 + block_y));
+      planes_.push_back(MakeBlockDepth(records.Record(blended.list.record[layers_of_.order[k]]), tile.x0 + block_x,
+                                       tile.y0 + block_y));
     }
     glm::vec4 sum(0.0f);
     for (int s = 0; s < tile.samples; ++s) {
       glm::vec4 color = background != nullptr ? (*background)[p] : glm::vec4(0.0f);
-      for (std::uint32_t k = opaque_of.first[p]; k < opaque_of.first[p + 1]; ++k) {
-        const std::uint32_t i = opaque_of.order[k];
+      for (std::uint32_t k = opaque_of_.first[p]; k < opaque_of_.first[p + 1]; ++k) {
+        const std::uint32_t i = opaque_of_.order[k];
         if (opaque.list.samples[i] >> s & 1) color = glm::vec4(opaque.red[i], opaque.green[i], opaque.blue[i], 1.0f);
       }
       const float sample_x = static_cast<float>((x - block_x) * kSampleGrid + pattern[s].x) / kSampleGrid;
       const float sample_y = static_cast<float>((y - block_y) * kSampleGrid + pattern[s].y) / kSampleGrid;
-      layers.clear();
+      layers_.clear();
       for (std::uint32_t k = begin; k < end; ++k) {
-        const std::uint32_t i = layers_of.order[k];
-        if (blended.list.samples[i] >> s & 1) layers.push_back({DepthAt(planes[k - begin], sample_x, sample_y), i});
+        const std::uint32_t i = layers_of_.order[k];
+        if (blended.list.samples[i] >> s & 1) layers_.push_back({DepthAt(planes_[k - begin], sample_x, sample_y), i});
       }
-      std::stable_sort(layers.begin(), layers.end(), [](const Layer& a, const Layer& b) { return a.depth < b.depth; });
-      for (const Layer& layer : layers) {
+      // Fragment numbers follow submission order, so this is a stable sort without its memory.
+      std::sort(layers_.begin(), layers_.end(), [](const Layer& a, const Layer& b) {
+        return a.depth != b.depth ? a.depth < b.depth : a.fragment < b.fragment;
+      });
+      for (const Layer& layer : layers_) {
         const std::uint32_t i = layer.fragment;
         const float a = blended.alpha[i];
         color = glm::vec4(blended.red[i], blended.green[i], blended.blue[i], 1.0f) * a + color * (1.0f - a);

@@ -15,12 +15,30 @@ class RecordTable {
   virtual const TriangleRecord& Record(std::int32_t number) const = 0;
 };
 
-// Replaces, in `pixels` (tile_size a row), those that blended fragments touch. Each sample starts from the opaque
-// fragment that covers it, or from `background` (may be null: nothing), and the fragments that cover it are laid over it
-// in the order of their depth at that very sample, so that surfaces that cut through each other come out right. At equal
-// depth the later triangle lies over the earlier. `opaque`: in the order of VisibleFragments.
-void CompositeBlended(const TileBuffers& tile, const ShadedFragments& opaque, const ShadedFragments& blended,
-                      const RecordTable& records, const std::vector<glm::vec4>* background,
-                      std::vector<glm::vec4>& pixels);
+// Keeps its working memory from tile to tile. Not thread-safe: one per worker.
+class Compositor {
+ public:
+  // Replaces, in `pixels` (tile_size a row), those that blended fragments touch. Each sample starts from the opaque
+  // fragment that covers it, or from `background` (may be null: nothing), and the fragments that cover it are laid over
+  // it in the order of their depth at that very sample, so that surfaces that cut through each other come out right. At
+  // equal depth the later triangle lies over the earlier. `opaque`: in the order of VisibleFragments.
+  void Run(const TileBuffers& tile, const ShadedFragments& opaque, const ShadedFragments& blended,
+           const RecordTable& records, const std::vector<glm::vec4>* background, std::vector<glm::vec4>& pixels);
+
+ private:
+  // Fragments by pixel: those of pixel p are order[first[p]] to order[first[p + 1] - 1], in their list's order.
+  struct ByPixel {
+    std::vector<std::uint32_t> first, next, order;
+    void Fill(const FragmentList& list, std::size_t pixel_count);
+  };
+  struct Layer {
+    float depth;
+    std::uint32_t fragment;
+  };
+
+  ByPixel layers_of_, opaque_of_;
+  std::vector<BlockDepth> planes_;
+  std::vector<Layer> layers_;
+};
 
 }  // namespace facet

@@ -69,7 +69,17 @@ Json ToJson(const MaterialSummary& summary) {
 }
 
 Json ToJson(const ImageSummary& image) {
-  return {{"name", image.name}, {"source", image.source}, {"textures", image.textures}};
+  const ImageHeader header = image.header.value_or(ImageHeader());
+  const auto known = [](auto value) { return value > 0 ? Json(value) : Json(nullptr); };
+  return {{"name", image.name},
+          {"source", image.source},
+          {"format", header.format.empty() ? Json(nullptr) : Json(header.format)},
+          {"width", known(header.width)},
+          {"height", known(header.height)},
+          {"channels", known(header.channels)},
+          {"bits", known(header.bits)},
+          {"bytes", known(header.bytes)},
+          {"textures", image.textures}};
 }
 
 Json ToJson(const Texture& texture) {

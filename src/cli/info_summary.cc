@@ -131,7 +131,7 @@ FileSummary Summarize(const LoadedScene& file, std::string input) {
     }
   }
   for (const SceneImage& image : scene.images) {
-    summary.images.push_back({image.name, image.source ? image.source->Name() : std::string(), 0});
+    summary.images.push_back({image.name, image.source->Name(), 0, image.source->Header()});
   }
   for (const Texture& texture : scene.textures) {
     if (texture.image >= 0) ++summary.images[static_cast<std::size_t>(texture.image)].textures;

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -48,6 +49,7 @@ struct ImageSummary {
   std::string name;          // the file's name for it, may be empty
   std::string source;        // where its bytes are
   std::size_t textures = 0;  // that use it
+  std::optional<ImageHeader> header;
 };
 
 struct AnimationSummary {

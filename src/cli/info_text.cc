@@ -156,8 +156,20 @@ std::string Describe(const ExtensionUse& extension) {
 }
 
 std::string Describe(const ImageSummary& image) {
-  std::string text = image.source == image.name ? "" : image.source + ", ";
-  return text + (image.textures == 0 ? "not used" : "used by " + Plural(image.textures, "texture"));
+  std::vector<std::string> parts;
+  if (image.source != image.name) parts.push_back(image.source);
+  if (!image.header) {
+    parts.push_back("unknown format");
+  } else {
+    const ImageHeader& header = *image.header;
+    if (!header.format.empty()) parts.push_back(header.format);
+    const bool sized = header.width > 0 && header.height > 0;
+    parts.push_back(sized ? Format("%dx%d", header.width, header.height) : "unknown size");
+    if (header.channels > 0 && header.bits > 0) parts.push_back(Format("%d x %d bits", header.channels, header.bits));
+    parts.push_back(Bytes(header.bytes));
+  }
+  parts.push_back(image.textures == 0 ? "not used" : "used by " + Plural(image.textures, "texture"));
+  return Join(parts);
 }
 
 std::string Describe(const Skin& skin) { return Plural(skin.joints.size(), "joint"); }
@@ -183,7 +195,7 @@ class Listing {
     for (const auto& thing : things) {
       const std::string description = Printable(Describe(thing));
       std::string line = Format("  %3zu  ", index) + names[index];
-      if (!description.empty() && width > 0) {
+      if (!description.empty() && (width > 0 || !names[index].empty())) {
         line.append(width > names[index].size() ? width - names[index].size() : 0, ' ') += "  ";
       }
       text_ += line + description + "\n";

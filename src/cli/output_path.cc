@@ -25,7 +25,7 @@ constexpr std::array<OutputFormat, 11> kFormats = {{
     {.extension = ".jpeg", .alpha = false},
     {.extension = ".tga"},
     {.extension = ".bmp", .alpha = false},
-    {.extension = ".ppm", .alpha = false, .sixteen_bits = true},
+    {.extension = ".ppm", .alpha = false, .sixteen_bits = false},
 }};
 
 }  // namespace

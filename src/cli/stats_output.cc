@@ -129,6 +129,7 @@ std::string StatsJson(const CommandStats& stats) {
        {{"input", stats.input_bytes},
         {"textures", stats.render.texture_bytes},
         {"peak_resident", PeakResidentBytes()}}},
+      {"left_out", stats.render.left_out},
       {"warnings", stats.render.warnings},
   };
   // File names need not be UTF-8; JSON must be.

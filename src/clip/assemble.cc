@@ -43,7 +43,8 @@ class Assembler {
     }
     ++chunk_.clipped;
     ClipVertex polygon[kMaxClipVertices + 1];
-    for (int i = 0; i < 3; ++i) polygon[i] = {Homogeneous(v[std::size_t(i)]), i};
+    const std::int32_t codes[3] = {c0, c1, c2};
+    for (int i = 0; i < 3; ++i) polygon[i] = {Homogeneous(v[std::size_t(i)]), i, codes[i]};
     const int count = ClipPolygon(view_, c0 | c1 | c2, polygon, 3);
     ScreenVertex screen[kMaxClipVertices + 1];
     for (int i = 0; i < count; ++i) screen[i] = Project(polygon[i], v);
@@ -113,9 +114,9 @@ class Assembler {
   ScreenVertex At(const glm::dvec2& pixel, double depth) const { return {Snap(pixel.x), Snap(pixel.y), depth}; }
 
   // A vertex that the clipper did not touch keeps the place that the vertex stage gave it: the neighbours that were not
-  // clipped have it there.
+  // clipped have it there. Where that stage found it outside, it gave it none, and no neighbour has one either.
   ScreenVertex Project(const ClipVertex& v, const std::array<std::uint32_t, 3>& source) const {
-    if (v.source >= 0) return Vertex(source[std::size_t(v.source)]);
+    if (v.source >= 0 && (v.outcode & kOutClip) == 0) return Vertex(source[std::size_t(v.source)]);
     return At(Pixel(v.position), Depth(v.position));
   }
 
@@ -147,9 +148,9 @@ class Assembler {
     const double scale = static_cast<double>(kSubpixelScale) / static_cast<double>(area);
     const double x1 = b.x_fx8 - a.x_fx8, y1 = b.y_fx8 - a.y_fx8, x2 = c.x_fx8 - a.x_fx8, y2 = c.y_fx8 - a.y_fx8;
     const double z1 = b.depth - a.depth, z2 = c.depth - a.depth;
-    r.depth_0 = static_cast<float>(a.depth);
-    r.depth_dx = static_cast<float>((z1 * y2 - z2 * y1) * scale);
-    r.depth_dy = static_cast<float>((z2 * x1 - z1 * x2) * scale);
+    r.depth_0 = a.depth;
+    r.depth_dx = (z1 * y2 - z2 * y1) * scale;
+    r.depth_dy = (z2 * x1 - z1 * x2) * scale;
     r.depth_min = static_cast<float>(std::min({a.depth, b.depth, c.depth}));
     r.depth_max = static_cast<float>(std::max({a.depth, b.depth, c.depth}));
     r.drawable = chunk_.drawable;

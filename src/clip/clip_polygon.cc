@@ -37,7 +37,10 @@ int MakePlanes(const FrameView& view, std::int32_t outcodes, Plane* planes) {
   return count;
 }
 
-double Side(const Plane& plane, const ClipVertex& v) { return glm::dot(plane.normal, v.position) + plane.offset; }
+double Side(const Plane& plane, const ClipVertex& v) {
+  const double side = glm::dot(plane.normal, v.position) + plane.offset;
+  return (v.outcode & plane.bit) == 0 && side < 0.0 ? 0.0 : side;
+}
 
 ClipVertex Cut(const ClipVertex& inner, double d_inner, const ClipVertex& outer, double d_outer) {
   const double t = d_inner / (d_inner - d_outer);

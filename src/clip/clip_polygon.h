@@ -1,6 +1,7 @@
 // Clipping of one convex polygon or one line in homogeneous screen space.
 #pragma once
 
+#include <cstdint>
 #include <glm/glm.hpp>
 
 #include "frame/geometry.h"
@@ -11,6 +12,9 @@ namespace facet {
 struct ClipVertex {
   glm::dvec3 position;  // homogeneous screen space: x, y, distance
   int source;           // 0 to 2: the primitive's own vertex, untouched; -1: made by the clipper
+  // Of a vertex that the vertex stage has judged: planes that it does not name have the vertex inside, whatever the
+  // position says in double. The triangle next to this one may not be clipped and then has the vertex where it was.
+  std::int32_t outcode = kOutClip;
 };
 
 // A triangle gains at most one vertex at each of six planes.

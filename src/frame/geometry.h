@@ -60,9 +60,11 @@ enum class RecordKind : std::uint8_t { Triangle, Line, Point };
 
 // A snapped screen triangle: a whole primitive, or a piece of one that was clipped or widened.
 // depth(x, y) = depth_0 + depth_dx * (x - x_0) + depth_dy * (y - y_0), in pixels, kept within [depth_min, depth_max].
+// In double, because the vertex may be thousands of pixels away; rounded to float once a block (MakeBlockDepth).
 struct TriangleRecord {
   std::int32_t x_fx8[3], y_fx8[3];  // clockwise on the screen (y down): positive area
-  float depth_0, depth_dx, depth_dy, depth_min, depth_max;
+  double depth_0, depth_dx, depth_dy;
+  float depth_min, depth_max;
   std::uint32_t drawable;
   std::uint32_t primitive;  // within the drawable
   RecordKind kind;

@@ -38,10 +38,13 @@ struct TileBuffers {
   int tile_size = 0, samples = 0;
   std::vector<float> depth;
   std::vector<std::int32_t> record;
+  // A depth that every sample of a block reaches: what is no nearer than it cannot be seen there. One entry a block.
+  std::vector<float> farthest;
 
   int BlocksPerRow() const { return tile_size / kBlockSize; }
+  std::size_t BlockIndex(int block_x, int block_y) const { return std::size_t(block_y * BlocksPerRow() + block_x); }
   std::size_t BlockOffset(int block_x, int block_y) const {
-    return std::size_t(block_y * BlocksPerRow() + block_x) * std::size_t(samples * kBlockPixels);
+    return BlockIndex(block_x, block_y) * std::size_t(samples * kBlockPixels);
   }
   std::size_t Index(int x, int y, int sample) const {
     return BlockOffset(x / kBlockSize, y / kBlockSize) +
@@ -58,8 +61,8 @@ struct BlockDepth {
 inline BlockDepth MakeBlockDepth(const TriangleRecord& r, int block_x_px, int block_y_px) {
   constexpr double kPixel = 1.0 / kSubpixelScale;
   const double x = block_x_px - r.x_fx8[0] * kPixel, y = block_y_px - r.y_fx8[0] * kPixel;
-  return {static_cast<float>(double{r.depth_0} + double{r.depth_dx} * x + double{r.depth_dy} * y), r.depth_dx, r.depth_dy,
-          r.depth_min, r.depth_max};
+  return {static_cast<float>(r.depth_0 + r.depth_dx * x + r.depth_dy * y), static_cast<float>(r.depth_dx),
+          static_cast<float>(r.depth_dy), r.depth_min, r.depth_max};
 }
 
 // `x`, `y`: pixels from the block's corner, of a sample.

@@ -1,8 +1,10 @@
 #include "gltf/bytes.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <limits>
 #include <string>
 
 #include "facet/error.h"
@@ -14,7 +16,7 @@ MutableBytes AllocateBytes(std::size_t size) {
   return {std::shared_ptr<std::byte[]>(new std::byte[size ? size : 1]), size};
 }
 
-Bytes ReadWholeFile(const std::filesystem::path& path) {
+Bytes ReadFileStart(const std::filesystem::path& path, std::size_t most, std::uintmax_t* file_size) {
   const std::string name = path.string();
   std::error_code ignored;
   const auto status = std::filesystem::status(path, ignored);
@@ -30,10 +32,15 @@ Bytes ReadWholeFile(const std::filesystem::path& path) {
   }
   const std::uintmax_t size = std::filesystem::file_size(path, ignored);
   if (ignored) throw Error(ErrorCode::NotFound, "cannot be read", name);
-  MutableBytes bytes = AllocateBytes(static_cast<std::size_t>(size));
+  if (file_size) *file_size = size;
+  MutableBytes bytes = AllocateBytes(static_cast<std::size_t>(std::min<std::uintmax_t>(size, most)));
   bytes.size = std::fread(bytes.data(), 1, bytes.size, file.get());
   if (std::ferror(file.get())) throw Error(ErrorCode::NotFound, "cannot be read", name);
   return bytes.Freeze();
+}
+
+Bytes ReadWholeFile(const std::filesystem::path& path) {
+  return ReadFileStart(path, std::numeric_limits<std::size_t>::max());
 }
 
 }  // namespace facet::gltf

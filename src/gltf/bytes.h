@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <span>
@@ -31,5 +32,9 @@ MutableBytes AllocateBytes(std::size_t size);
 
 // A whole file. Throws Error(NotFound) when it is not there, not readable, or not a regular file.
 Bytes ReadWholeFile(const std::filesystem::path& path);
+
+// The first `most` bytes of a file, or all where it has no more. `file_size` gets the size of the whole, where given.
+// Throws as ReadWholeFile.
+Bytes ReadFileStart(const std::filesystem::path& path, std::size_t most, std::uintmax_t* file_size = nullptr);
 
 }  // namespace facet::gltf

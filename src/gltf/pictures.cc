@@ -1,10 +1,13 @@
 #include "gltf/pictures.h"
 
+#include <cstdint>
+#include <limits>
 #include <utility>
 
 #include "gltf/extensions.h"
 #include "gltf/uri.h"
 #include "image/codec.h"
+#include "image/probe.h"
 
 namespace facet::gltf {
 namespace {
@@ -15,6 +18,7 @@ class EncodedImage final : public ImageSource {
   EncodedImage(Bytes bytes, std::string name) : bytes_(std::move(bytes)), name_(std::move(name)) {}
   Image Decode() const override { return DecodeImage(bytes_.Span(), name_); }
   std::string Name() const override { return name_; }
+  std::optional<ImageHeader> Header() const override { return ProbeImage(bytes_.Span()); }
 
  private:
   Bytes bytes_;
@@ -27,10 +31,28 @@ class ImageFile final : public ImageSource {
   explicit ImageFile(std::filesystem::path path) : path_(std::move(path)) {}
   Image Decode() const override { return DecodeImage(ReadWholeFile(path_).Span(), Name()); }
   std::string Name() const override { return path_.string(); }
+  std::optional<ImageHeader> Header() const override;
 
  private:
   std::filesystem::path path_;
 };
+
+std::optional<ImageHeader> ImageFile::Header() const {
+  try {
+    // The first piece is enough unless a JPEG's or PNG's colour profile or previews come before what is looked for.
+    for (const std::size_t most : {std::size_t(1) << 16, std::numeric_limits<std::size_t>::max()}) {
+      std::uintmax_t file_size = 0;
+      const Bytes start = ReadFileStart(path_, most, &file_size);
+      std::optional<ImageHeader> header = ProbeImage(start.Span());
+      if (!header) return header;
+      header->bytes = static_cast<std::size_t>(file_size);
+      const bool known = header->width > 0 && header->height > 0 && header->channels > 0;
+      if (known || start.size >= file_size || most > file_size) return header;
+    }
+  } catch (const Error&) {  // Decode() is the one to say so
+  }
+  return std::nullopt;
+}
 
 // A picture that is not there.
 class MissingImage final : public ImageSource {

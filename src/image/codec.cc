@@ -104,14 +104,20 @@ std::vector<std::byte> ReadFileWhole(const std::filesystem::path& path) {
 }
 
 void WriteFileWhole(const std::filesystem::path& path, const std::function<void(const std::filesystem::path&)>& write) {
-  const std::filesystem::path temporary = TemporaryName(path);
+  std::error_code ignored;
+  // A pipe or a device stays what it is: it has no state to keep whole. A link stays a link to the new file.
+  const std::filesystem::file_status status = std::filesystem::status(path, ignored);
+  if (std::filesystem::is_fifo(status) || std::filesystem::is_character_file(status)) return write(path);
+  const std::filesystem::path target =
+      std::filesystem::is_symlink(path, ignored) ? std::filesystem::weakly_canonical(path, ignored) : path;
+  const std::filesystem::path temporary = TemporaryName(target);
   try {
     write(temporary);
   } catch (...) {
     ::unlink(temporary.c_str());
     throw;
   }
-  if (::rename(temporary.c_str(), path.c_str()) == 0) return;
+  if (::rename(temporary.c_str(), target.c_str()) == 0) return;
   const int error = errno;
   ::unlink(temporary.c_str());
   FailOutput(path, error);
@@ -119,7 +125,7 @@ void WriteFileWhole(const std::filesystem::path& path, const std::function<void(
 
 void WriteFileWhole(const std::filesystem::path& path, std::span<const std::byte> bytes) {
   WriteFileWhole(path, [&](const std::filesystem::path& temporary) {
-    File file(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+    File file(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
     if (file.get() < 0) FailOutput(path, errno);
     for (std::size_t done = 0; done < bytes.size();) {
       const ssize_t count = ::write(file.get(), bytes.data() + done, bytes.size() - done);

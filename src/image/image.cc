@@ -10,6 +10,10 @@ class MemoryImage final : public ImageSource {
   MemoryImage(Image image, std::string name) : image_(std::move(image)), name_(std::move(name)) {}
   Image Decode() const override { return image_; }
   std::string Name() const override { return name_; }
+  std::optional<ImageHeader> Header() const override {
+    const int bits = 8 * static_cast<int>(SizeOf(image_.type));
+    return ImageHeader{{}, image_.width, image_.height, image_.channels, bits, image_.bytes.size()};
+  }
 
  private:
   Image image_;

@@ -234,6 +234,8 @@ void Encode(const std::string& path, const FacetOiioPicture& picture, bool premu
   if (has_alpha && !premultiplied) spec.attribute("oiio:UnassociatedAlpha", 1);
   spec.attribute("oiio:ColorSpace", picture.encoding == static_cast<int>(Encoding::Linear) ? "Linear" : "sRGB");
   const std::string extension = std::filesystem::path(path).extension().string();
+  // OpenImageIO stamps EXR and TIFF with the present time; the file is to be a function of the picture alone.
+  spec.attribute("DateTime", "1970:01:01 00:00:00");
   if (extension == ".jpg" || extension == ".jpeg") spec.attribute("Compression", "jpeg:95");
   if (!output->open(path, spec)) fail(output->geterror());
   if (!output->write_image(type, picture.pixels)) fail(output->geterror());

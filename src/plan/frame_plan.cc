@@ -1,6 +1,9 @@
 #include "plan/frame_plan.h"
 
 #include <algorithm>
+#include <map>
+#include <tuple>
+#include <utility>
 
 #include "scene/topology.h"
 
@@ -21,19 +24,20 @@ class Planner {
     const bool unlit = material.unlit ||
                        (geometry.normals.empty() && ClassOf(geometry.topology) != PrimitiveClass::Triangles);
     const bool colors = !geometry.colors.empty();
-    for (std::size_t i = 0; i < plan.materials.size(); ++i) {
-      const PlannedMaterial& m = plan.materials[i];
-      if (m.material == drawable.material && m.unlit == unlit && m.vertex_colors == colors) return static_cast<int>(i);
-    }
-    plan.materials.push_back(Plan(material, drawable.material, unlit, colors));
-    return static_cast<int>(plan.materials.size()) - 1;
+    // Points and lines get no tangents from anyone; without the file's they have no tangent space.
+    const bool flat = geometry.tangents.empty() && ClassOf(geometry.topology) != PrimitiveClass::Triangles;
+    const auto [known, is_new] = materials_.try_emplace({drawable.material, unlit, colors, flat},
+                                                        static_cast<int>(plan.materials.size()));
+    if (is_new) plan.materials.push_back(Plan(material, drawable.material, unlit, colors, flat));
+    return known->second;
   }
 
   FramePlan plan;
 
  private:
-  PlannedMaterial Plan(Material material, int index, bool unlit, bool colors) {
+  PlannedMaterial Plan(Material material, int index, bool unlit, bool colors, bool flat) {
     material.unlit = unlit;
+    if (flat) material.normal_texture = {};
     PlannedMaterial planned;
     planned.material = index;
     planned.unlit = unlit;
@@ -81,15 +85,10 @@ class Planner {
   }
 
   int TextureFor(int image, TextureRole role, bool mips) {
-    for (std::size_t i = 0; i < plan.textures.size(); ++i) {
-      PlannedTexture& t = plan.textures[i];
-      if (t.image == image && t.role == role) {
-        t.mips = t.mips || mips;
-        return static_cast<int>(i);
-      }
-    }
-    plan.textures.push_back({image, role, mips});
-    return static_cast<int>(plan.textures.size()) - 1;
+    const auto [known, is_new] = textures_.try_emplace({image, role}, static_cast<int>(plan.textures.size()));
+    if (is_new) plan.textures.push_back({image, role, false});
+    plan.textures[std::size_t(known->second)].mips |= mips;
+    return known->second;
   }
 
   static int SlotFor(FrameMaterial& material, int tex_coord) {
@@ -102,6 +101,8 @@ class Planner {
 
   const Scene& scene_;
   const RenderSettings& settings_;
+  std::map<std::tuple<int, bool, bool, bool>, int> materials_;  // material, unlit, vertex colours, no tangents
+  std::map<std::pair<int, TextureRole>, int> textures_;
 };
 
 }  // namespace

@@ -36,22 +36,26 @@ struct TriangleEdges {
     }
   }
 
-  // False when the block lies outside one edge. An edge that the whole block is inside of becomes 0 >= 0.
-  bool InBlock(int x_px, int y_px, BlockEdges& out) const {
+  // How a block lies: outside one edge, cut by some, or inside all. An edge that the whole block is inside of becomes
+  // 0 >= 0.
+  enum class Overlap { None, Part, Whole };
+  Overlap InBlock(int x_px, int y_px, BlockEdges& out) const {
     constexpr std::int64_t kReach = kBlockSize * kSampleGrid - 1;
+    Overlap overlap = Overlap::Whole;
     for (int i = 0; i < 3; ++i) {
       // Divided by 16, rounding down: a and b multiply whole sixteenths of a pixel, that is multiples of 16 fx8.
       const std::int64_t corner =
           (a[i] * (std::int64_t{x_px} << kSubpixelBits) + b[i] * (std::int64_t{y_px} << kSubpixelBits) + c[i]) >> 4;
       const std::int64_t low = corner + std::min<std::int64_t>(a[i], 0) * kReach + std::min<std::int64_t>(b[i], 0) * kReach;
       const std::int64_t high = corner + std::max<std::int64_t>(a[i], 0) * kReach + std::max<std::int64_t>(b[i], 0) * kReach;
-      if (high < 0) return false;
+      if (high < 0) return Overlap::None;
       const bool inside = low >= 0;
+      if (!inside) overlap = Overlap::Part;
       out.a[i] = inside ? 0 : static_cast<std::int32_t>(a[i]);
       out.b[i] = inside ? 0 : static_cast<std::int32_t>(b[i]);
       out.c[i] = inside ? 0 : static_cast<std::int32_t>(corner);
     }
-    return true;
+    return overlap;
   }
 };
 static_assert(kSubpixelScale / kSampleGrid == 16, "the shift in InBlock");
@@ -94,12 +98,13 @@ HWY_BEFORE_NAMESPACE();
 namespace facet {
 namespace HWY_NAMESPACE {
 
-// Calls visit(offset, first_pixel, sample, covered_and_nearer, depth) for each group of lanes of each sample of each
-// block that the triangle touches: `offset` is the group's place in the tile's buffers. visit_group(first_pixel) comes
-// after all samples of a group.
-template <class Visit, class EndGroup>
+// Calls visit(offset, sample, passed, depth) for each group of lanes of each sample of each block that the triangle
+// touches: `offset` is the group's place in the tile's buffers, `passed` the lanes that are covered and pass the depth
+// test (nearer, or with kOrEqual not farther). end_group(block_x, block_y, first pixel) comes after all samples of a
+// group, end_block(block_x, block_y, wholly covered) after all groups of a block; block_x and block_y in blocks.
+template <bool kOrEqual, class Visit, class EndGroup, class EndBlock>
 HWY_INLINE void VisitCoverage(const TriangleRecord& r, const TileBuffers& tile, const Visit& visit,
-                              const EndGroup& end_group) {
+                              const EndGroup& end_group, const EndBlock& end_block) {
   const SamplePosition* pattern = SamplePattern(tile.samples);
   const TriangleEdges edges(r);
   const BlockRange range(r, tile);
@@ -108,8 +113,11 @@ HWY_INLINE void VisitCoverage(const TriangleRecord& r, const TileBuffers& tile, 
   for (int by = range.y0; by <= range.y1; ++by) {
     for (int bx = range.x0; bx <= range.x1; ++bx) {
       const int x_px = tile.x0 + bx * kBlockSize, y_px = tile.y0 + by * kBlockSize;
+      const float farthest = tile.farthest[tile.BlockIndex(bx, by)];
+      if (kOrEqual ? r.depth_max < farthest : r.depth_max <= farthest) continue;
       BlockEdges e;
-      if (!edges.InBlock(x_px, y_px, e)) continue;
+      const TriangleEdges::Overlap overlap = edges.InBlock(x_px, y_px, e);
+      if (overlap == TriangleEdges::Overlap::None) continue;
       const BlockDepth d = MakeBlockDepth(r, x_px, y_px);
       const std::size_t block = tile.BlockOffset(bx, by);
       const int first = std::max(range.first_row - by * kBlockSize, 0) * kBlockSize;
@@ -130,11 +138,13 @@ HWY_INLINE void VisitCoverage(const TriangleRecord& r, const TileBuffers& tile, 
           const Float z = (Float(d.c) + Float(d.dx) * x) + Float(d.dy) * y;
           const Float depth = Min(Max(z, Float(d.low)), Float(d.high));
           const std::size_t offset = block + std::size_t(s * kBlockPixels + i);
-          const Mask nearer = covered & (depth > LoadFloat(tile.depth.data() + offset));
-          if (Any(nearer)) visit(offset, s, nearer, depth);
+          const Float there = LoadFloat(tile.depth.data() + offset);
+          const Mask passed = covered & (kOrEqual ? depth >= there : depth > there);
+          if (Any(passed)) visit(offset, s, passed, depth);
         }
-        end_group(bx * kBlockSize, by * kBlockSize, i);
+        end_group(bx, by, i);
       }
+      end_block(bx, by, overlap == TriangleEdges::Overlap::Whole);
     }
   }
 }
@@ -142,7 +152,7 @@ HWY_INLINE void VisitCoverage(const TriangleRecord& r, const TileBuffers& tile, 
 void RasterOpaqueKernel(const TileTriangles& triangles, TileBuffers& tile) {
   for (std::size_t t = 0; t < triangles.count; ++t) {
     const Int number(triangles.numbers[t]);
-    VisitCoverage(
+    VisitCoverage<false>(
         *triangles.records[t], tile,
         [&](std::size_t offset, int, Mask nearer, Float depth) HWY_ATTR {
           float* depths = tile.depth.data() + offset;
@@ -150,21 +160,33 @@ void RasterOpaqueKernel(const TileTriangles& triangles, TileBuffers& tile) {
           Store(Select(nearer, depth, LoadFloat(depths)), depths);
           Store(Select(nearer, number, LoadInt(records)), records);
         },
-        [](int, int, int) HWY_ATTR {});
+        [](int, int, int) HWY_ATTR {},
+        [&](int block_x, int block_y, bool whole) HWY_ATTR {
+          if (!whole) return;
+          const float* depths = tile.depth.data() + tile.BlockOffset(block_x, block_y);
+          Float lowest = LoadFloat(depths);
+          const std::size_t size = std::size_t(tile.samples * kBlockPixels);
+          for (std::size_t i = LaneCount(); i < size; i += LaneCount()) lowest = Min(lowest, LoadFloat(depths + i));
+          alignas(64) float lanes[kMaxLanes];
+          Store(lowest, lanes);
+          tile.farthest[tile.BlockIndex(block_x, block_y)] = *std::min_element(lanes, lanes + LaneCount());
+        });
   }
 }
 
-void RasterCollectKernel(const TileTriangles& triangles, const TileBuffers& tile, FragmentList& out) {
+template <bool kOrEqual>
+HWY_INLINE void Collect(const TileTriangles& triangles, const TileBuffers& tile, FragmentList& out) {
   for (std::size_t t = 0; t < triangles.count; ++t) {
     std::uint32_t lanes_of[kMaxSamples] = {};
     std::uint32_t any = 0;
-    VisitCoverage(
+    VisitCoverage<kOrEqual>(
         *triangles.records[t], tile,
         [&](std::size_t, int s, Mask nearer, Float) HWY_ATTR { any |= lanes_of[s] = BitsOf(nearer); },
         [&](int block_x, int block_y, int first) HWY_ATTR {
           for (; any != 0; any &= any - 1) {
             const int lane = __builtin_ctz(any);
-            const int x = block_x + (first + lane) % kBlockSize, y = block_y + (first + lane) / kBlockSize;
+            const int x = block_x * kBlockSize + (first + lane) % kBlockSize;
+            const int y = block_y * kBlockSize + (first + lane) / kBlockSize;
             std::uint32_t samples = 0;
             for (int s = 0; s < tile.samples; ++s) samples |= (lanes_of[s] >> lane & 1u) << s;
             if (x < tile.width && y < tile.height) {
@@ -173,7 +195,17 @@ void RasterCollectKernel(const TileTriangles& triangles, const TileBuffers& tile
             }
           }
           for (std::uint32_t& bits : lanes_of) bits = 0;
-        });
+        },
+        [](int, int, bool) HWY_ATTR {});
+  }
+}
+
+void RasterCollectKernel(const TileTriangles& triangles, const TileBuffers& tile, FragmentList& out,
+                         CollectDepth test) {
+  if (test == CollectDepth::Nearer) {
+    Collect<false>(triangles, tile, out);
+  } else {
+    Collect<true>(triangles, tile, out);
   }
 }
 
@@ -191,14 +223,15 @@ void ClearTile(TileBuffers& tile) {
   const std::size_t size = std::size_t(tile.tile_size) * std::size_t(tile.tile_size) * std::size_t(tile.samples);
   tile.depth.assign(size, -std::numeric_limits<float>::infinity());
   tile.record.assign(size, kNoRecord);
+  tile.farthest.assign(size / std::size_t(tile.samples * kBlockPixels), -std::numeric_limits<float>::infinity());
 }
 
 void RasterOpaque(const TileTriangles& triangles, TileBuffers& tile) {
   FACET_DISPATCH(RasterOpaqueKernel)(triangles, tile);
 }
 
-void RasterCollect(const TileTriangles& triangles, const TileBuffers& tile, FragmentList& out) {
-  FACET_DISPATCH(RasterCollectKernel)(triangles, tile, out);
+void RasterCollect(const TileTriangles& triangles, const TileBuffers& tile, FragmentList& out, CollectDepth test) {
+  FACET_DISPATCH(RasterCollectKernel)(triangles, tile, out, test);
 }
 
 void WriteFragment(const TriangleRecord& record, std::int32_t number, std::uint16_t pixel, std::uint8_t samples,

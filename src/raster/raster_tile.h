@@ -21,8 +21,13 @@ void ClearTile(TileBuffers& tile);
 // equal depth the earlier triangle stays.
 void RasterOpaque(const TileTriangles& triangles, TileBuffers& tile);
 
-// Collects the fragments of triangles that are nearer than what is in the tile, which stays as it is. In triangle order.
-void RasterCollect(const TileTriangles& triangles, const TileBuffers& tile, FragmentList& out);
+// Which fragments RasterCollect takes: those nearer than what is in the tile, or also those just as near (a transparent
+// layer that lies in an opaque surface is seen).
+enum class CollectDepth : std::uint8_t { Nearer, NearerOrEqual };
+
+// Collects the fragments of triangles that pass the depth test against the tile, which stays as it is. In triangle order.
+void RasterCollect(const TileTriangles& triangles, const TileBuffers& tile, FragmentList& out,
+                   CollectDepth test = CollectDepth::Nearer);
 
 // Writes one collected fragment into the tile, sample by sample, where it still is the nearest. For alpha-tested
 // fragments that passed.

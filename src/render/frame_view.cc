@@ -1,5 +1,9 @@
 #include "render/frame_view.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 #include "math/elementary.h"
 #include "scene/topology.h"
 
@@ -11,8 +15,9 @@ FrameView MakeFrameView(const ResolvedCamera& camera, int width, int height) {
   view.width = width;
   view.height = height;
   view.perspective = !lens.orthographic;
-  view.near_distance = lens.znear;
-  view.far_distance = lens.zfar;
+  // As floats in the vertex stage: neither may leave their range there.
+  view.near_distance = view.perspective ? std::max(lens.znear, 1e-30) : lens.znear;
+  view.far_distance = lens.zfar < 1e30 ? lens.zfar : std::numeric_limits<double>::infinity();
   view.eye_world = glm::dvec3(camera.world_from_camera[3]);
   view.camera_from_world = glm::transpose(glm::dmat3(camera.world_from_camera));
   if (view.perspective) {
@@ -34,6 +39,19 @@ glm::dvec3 DirectionThrough(const FrameView& view, double x, double y) {
   return camera * view.camera_from_world;  // v * M is transpose(M) * v
 }
 
+namespace {
+
+// The eye in mesh space. Positions relative to it are rounded in proportion to their distance, which is what the screen
+// shows of an error; and all primitives of a mesh share it, so that borders between them stay closed.
+glm::vec3 EyeInMesh(const glm::dmat3& linear, const glm::dvec3& origin_eye) {
+  const glm::dvec3 eye = glm::inverse(linear) * -origin_eye;
+  constexpr double kLimit = 1e30;  // of what is left of a singular matrix
+  const bool usable = std::fabs(eye.x) < kLimit && std::fabs(eye.y) < kLimit && std::fabs(eye.z) < kLimit;
+  return usable ? glm::vec3(eye) : glm::vec3(0.0f);
+}
+
+}  // namespace
+
 FrameDrawable MakeFrameDrawable(const FrameView& view, const Drawable& drawable) {
   FrameDrawable out;
   out.geometry = drawable.geometry;
@@ -53,7 +71,7 @@ FrameDrawable MakeFrameDrawable(const FrameView& view, const Drawable& drawable)
   const glm::dvec3 camera_origin = view.camera_from_world * origin_eye;
   const glm::dvec3 rows[3] = {view.screen_x, view.screen_y, {0.0, 0.0, -1.0}};
   const double offsets[3] = {view.offset_x, view.offset_y, 0.0};
-  out.centre_mesh = drawable.geometry->positions.empty() ? glm::vec3(0.0f) : drawable.geometry->positions[0];
+  out.centre_mesh = EyeInMesh(linear, origin_eye);
   for (int i = 0; i < 3; ++i) {
     const glm::dvec3 row = rows[i] * camera_linear;
     const double translation = glm::dot(rows[i], camera_origin) + offsets[i];

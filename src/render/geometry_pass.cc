@@ -52,14 +52,15 @@ FrameGeometry RunGeometry(const FrameView& view, const PosedScene& posed, const 
       chunk.primitive_count = std::min(kChunkPrimitives, drawable.primitive_count - b);
     }
     vertex_count += n;
+    if (vertex_count > INT32_MAX / 3) {  // lanes index positions number by number
+      throw Error(ErrorCode::OutOfMemory, "the scene has more than 715,827,882 vertices at once", {},
+                  "render it in parts");
+    }
     stats.triangles_in += drawable.primitive_count;
     frame.drawables.push_back(drawable);
   }
   stats.drawables = frame.drawables.size();
   stats.vertices = vertex_count;
-  if (vertex_count > UINT32_MAX) {
-    throw Error(ErrorCode::OutOfMemory, "the scene has more than 2^32 vertices at once", {}, "render it in parts");
-  }
 
   VertexBuffer vertices;
   vertices.x_fx8.resize(vertex_count);
@@ -75,6 +76,7 @@ FrameGeometry RunGeometry(const FrameView& view, const PosedScene& posed, const 
     for (std::size_t i = begin; i < end; ++i) {
       TriangleChunk& chunk = frame.chunks[i];
       AssembleChunk(view, frame.drawables[chunk.drawable], vertices, samples, chunk);
+      chunk.records.shrink_to_fit();
       BinChunk(grid, chunk);
     }
   });

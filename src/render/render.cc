@@ -1,6 +1,8 @@
 #include "facet/render.h"
 
 #include <chrono>
+#include <cmath>
+#include <new>
 
 #include "base/parallel.h"
 #include "facet/error.h"
@@ -52,6 +54,11 @@ void CheckSettings(const RenderSettings& s) {
   if (s.tile_size != 8 && s.tile_size != 16 && s.tile_size != 32 && s.tile_size != 64) {
     Refuse("tiles of " + std::to_string(s.tile_size) + " pixels", "8, 16, 32 or 64 are accepted");
   }
+  if (std::isnan(s.time)) Refuse("a time that is not a number", "seconds are accepted");
+  if (!std::isfinite(s.environment.rotation)) Refuse("an environment rotation that is not finite", "give radians");
+  if (!(s.environment.intensity >= 0.0 && s.environment.intensity <= 1e30)) {
+    Refuse("an environment intensity of " + std::to_string(s.environment.intensity), "0 to 1e30 are accepted");
+  }
   if (s.environment.kind == EnvironmentSettings::Kind::Image && s.environment.image == nullptr) {
     Refuse("no environment picture", "set environment.image or another environment.kind");
   }
@@ -82,6 +89,7 @@ Film RenderPinned(const Scene& scene, const RenderSettings& settings, RenderStat
   pose.variant = settings.variant;
   const PosedScene posed = Pose(scene, pose);
   FramePlan plan = MakeFramePlan(scene, posed, settings);
+  stats.left_out = plan.left_out;
   const FrameView view = MakeFrameView(ResolveCamera(settings.camera, scene, posed, settings.width, settings.height),
                                        settings.width, settings.height);
   stats.pose_seconds = stage.Lap();
@@ -120,10 +128,15 @@ Film Render(const Scene& scene, const RenderSettings& settings, RenderStats* sta
   s = RenderStats();
   s.target = TargetName(ActiveTarget());
   Film film;
-  RunWithThreads(settings.threads, [&] {
-    s.threads = CurrentThreadCount();
-    film = RenderPinned(scene, settings, s);
-  });
+  try {
+    RunWithThreads(settings.threads, [&] {
+      s.threads = CurrentThreadCount();
+      film = RenderPinned(scene, settings, s);
+    });
+  } catch (const std::bad_alloc&) {
+    throw Error(ErrorCode::OutOfMemory, "the machine has too little memory for this picture of this scene", {},
+                "render it smaller, or with fewer threads");
+  }
   return film;
 }
 

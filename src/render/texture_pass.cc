@@ -1,6 +1,7 @@
 #include "render/texture_pass.h"
 
 #include <algorithm>
+#include <exception>
 
 #include "base/parallel.h"
 #include "facet/error.h"
@@ -24,6 +25,7 @@ FrameTextures DecodeTextures(const Scene& scene, const std::vector<bool>& materi
     if (needed[t] && std::find(images.begin(), images.end(), image) == images.end()) images.push_back(image);
   }
   std::vector<std::string> problems(images.size());
+  std::vector<std::exception_ptr> failures(images.size());  // the first in the file's order is passed on
   ParallelFor(images.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       try {
@@ -35,10 +37,14 @@ FrameTextures DecodeTextures(const Scene& scene, const std::vector<bool>& materi
         }
       } catch (const Error& error) {
         if (error.code() != ErrorCode::InvalidInput && error.code() != ErrorCode::NotFound) throw;
-        problems[i] = error.what();
+        const std::string name = scene.images[std::size_t(images[i])].source->Name();
+        problems[i] = error.where().empty() ? name + ": " + error.what() : error.what();
       }
     }
   });
+  for (const std::exception_ptr& failure : failures) {
+    if (failure != nullptr) std::rethrow_exception(failure);
+  }
   for (const std::string& problem : problems) {
     if (!problem.empty()) stats.warnings.push_back(problem + " (drawn without this texture)");
   }

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <memory>
 #include <mutex>
+#include <utility>
 
 #include "base/parallel.h"
 #include "blend/composite.h"
@@ -84,10 +85,10 @@ class TileWorker final : public RecordTable {
       ResolveOpaque(tile_, opaque_, background, pixels_);
       if (!lists.blended[t].empty()) {
         Gather(lists.blended[t]);
-        RasterCollect(Triangles(), tile_, blended_.list);
+        RasterCollect(Triangles(), tile_, blended_.list, CollectDepth::NearerOrEqual);
         Shade(blended_);
         counts.blended += blended_.list.Size();
-        CompositeBlended(tile_, opaque_, blended_, *this, background, pixels_);
+        compositor_.Run(tile_, opaque_, blended_, *this, background, pixels_);
       }
     }
     for (int y = 0; y < tile_.height; ++y) {
@@ -115,18 +116,22 @@ class TileWorker final : public RecordTable {
     }
   }
 
-  // Alpha-tested triangles, in batches: their fragments are collected against the depth so far, their alpha alone is
-  // shaded, and those that pass are written in order, each against the depth of that moment.
+  // Alpha-tested triangles, in batches: their fragments are collected against the depth of the opaque ones, their alpha
+  // alone is shaded, and those that pass are written in order, each against the depth of that moment. (Collected against
+  // that depth, which samples a fragment covers, hence where its alpha is read, would depend on where batches end, and so
+  // on the tile's size.)
   void DrawMasked(const std::vector<TileRun>& runs) {
     constexpr std::size_t kBatch = 64;  // triangles
+    behind_masked_ = tile_;
     for (const TileRun& run : runs) {
       const TriangleChunk& chunk = in_.geometry.chunks[run.chunk];
       const int material = in_.geometry.drawables[chunk.drawable].material;
-      const FrameMaterial& m = in_.plan.materials[std::size_t(material)].frame;
+      FrameMaterial m = in_.plan.materials[std::size_t(material)].frame;
+      m.features &= ~std::uint32_t{kLit | kNormalTexture};  // alpha needs neither place nor direction
       for (std::uint32_t first = run.begin; first < run.end; first += kBatch) {
         Gather({{run.chunk, first, std::min<std::uint32_t>(run.end, first + kBatch)}});
         masked_.list.Clear();
-        RasterCollect(Triangles(), tile_, masked_.list);
+        RasterCollect(Triangles(), behind_masked_, masked_.list);
         const std::size_t n = masked_.list.Size();
         masked_.Resize();
         batch_.clear();
@@ -145,26 +150,24 @@ class TileWorker final : public RecordTable {
   void Shade(ShadedFragments& fragments) {
     fragments.Resize();
     const std::size_t n = fragments.list.Size();
-    material_of_.resize(n);
+    by_material_.resize(n);
     std::int32_t last_number = kNoRecord;
-    int last_material = -1;
-    materials_.clear();
+    std::uint32_t last_material = 0;
+    bool one_material = true;
     for (std::size_t i = 0; i < n; ++i) {
       if (fragments.list.record[i] != last_number) {
         last_number = fragments.list.record[i];
-        last_material = in_.geometry.drawables[Record(last_number).drawable].material;
+        last_material = static_cast<std::uint32_t>(in_.geometry.drawables[Record(last_number).drawable].material);
       }
-      material_of_[i] = last_material;
-      if (std::find(materials_.begin(), materials_.end(), last_material) == materials_.end()) {
-        materials_.push_back(last_material);
-      }
+      by_material_[i] = {last_material, static_cast<std::uint32_t>(i)};
+      one_material = one_material && last_material == by_material_[0].first;
     }
-    for (const int material : materials_) {
+    if (!one_material) std::sort(by_material_.begin(), by_material_.end());
+    for (std::size_t i = 0; i < n;) {
+      const std::uint32_t material = by_material_[i].first;
       batch_.clear();
-      for (std::size_t i = 0; i < n; ++i) {
-        if (material_of_[i] == material) batch_.push_back(static_cast<std::uint32_t>(i));
-      }
-      ShadeBatch(in_.plan.materials[std::size_t(material)].frame, fragments, /*alpha_only=*/false);
+      for (; i < n && by_material_[i].first == material; ++i) batch_.push_back(by_material_[i].second);
+      ShadeBatch(in_.plan.materials[material].frame, fragments, /*alpha_only=*/false);
     }
   }
 
@@ -267,11 +270,12 @@ class TileWorker final : public RecordTable {
   const TilePassInput& in_;
   const ShadingPositions& positions_;
   TileCounts* counts_ = nullptr;
-  TileBuffers tile_;
+  TileBuffers tile_, behind_masked_;
   ShadedFragments opaque_, masked_, blended_;
+  Compositor compositor_;
   std::vector<const TriangleRecord*> records_;
   std::vector<std::int32_t> numbers_;
-  std::vector<int> material_of_, materials_;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> by_material_;  // material, fragment
   std::vector<std::uint32_t> batch_;
   std::vector<TableEntry> table_;
   std::size_t setup_count_ = 0;
@@ -313,6 +317,7 @@ void RunTiles(const TilePassInput& input, Film& film, RenderStats& stats) {
   const std::size_t tile_count = std::size_t(input.grid.Count());
   std::vector<TileCounts> counts(tile_count);
   std::atomic<std::size_t> done{0};
+  double reported = 0.0;  // guarded by progress_mutex
   std::mutex progress_mutex;
   ParallelFor(tile_count, 1, [&](std::size_t begin, std::size_t end) {
     std::unique_ptr<TileWorker> worker = pool.Take();
@@ -321,7 +326,8 @@ void RunTiles(const TilePassInput& input, Film& film, RenderStats& stats) {
     const std::size_t now = done += end - begin;
     if (input.settings.progress && now % 16 == 0) {
       const std::unique_lock lock(progress_mutex, std::try_to_lock);
-      if (lock.owns_lock()) input.settings.progress(static_cast<double>(now) / static_cast<double>(tile_count));
+      const double share = static_cast<double>(now) / static_cast<double>(tile_count);
+      if (lock.owns_lock() && share > reported) input.settings.progress(reported = share);
     }
   });
   for (const TileCounts& c : counts) {

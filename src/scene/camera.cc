@@ -101,6 +101,23 @@ glm::dvec3 NormalizedOr(const glm::dvec3& v, const glm::dvec3& otherwise) {
   return length > 0.0 && std::isfinite(length) ? v / length : otherwise;
 }
 
+// Fits a lens to a picture of another shape: all that the lens frames stays visible, and more is seen on two sides.
+// Source: glTF 2.0 specification, section 3.10.3: no cropping, no stretching.
+void FitLens(double aspect, Camera& lens) {
+  if (lens.orthographic) {
+    lens.xmag = std::fabs(lens.xmag);
+    lens.ymag = std::fabs(lens.ymag);
+    if (aspect < lens.xmag / lens.ymag) {
+      lens.ymag = lens.xmag / aspect;
+    } else {
+      lens.xmag = lens.ymag * aspect;
+    }
+  } else if (lens.aspect && aspect < *lens.aspect) {
+    lens.yfov = 2.0 * Atan2(Tan(0.5 * lens.yfov) * (*lens.aspect / aspect), 1.0);
+  }
+  lens.aspect = aspect;
+}
+
 ResolvedCamera ResolveSceneCamera(int index, const Scene& scene, const PosedScene& posed, double aspect) {
   if (index < 0 || std::size_t(index) >= scene.cameras.size()) {
     Fail("camera " + std::to_string(index) + " is not one of the scene's " + std::to_string(scene.cameras.size()),
@@ -123,16 +140,26 @@ ResolvedCamera ResolveSceneCamera(int index, const Scene& scene, const PosedScen
   ResolvedCamera camera;
   camera.world_from_camera = PlaceAt(glm::dvec3(matrix[3]), axes);
   camera.lens = scene.cameras[std::size_t(index)];
-  camera.lens.aspect = aspect;
-  if (camera.lens.orthographic) {
-    camera.lens.ymag = std::fabs(camera.lens.ymag);
-    camera.lens.xmag = camera.lens.ymag * aspect;
-  }
+  FitLens(aspect, camera.lens);
   return camera;
+}
+
+// What follows takes the transpose for the inverse. NaN fails every comparison.
+void CheckRigid(const glm::dmat4& m) {
+  constexpr double kTolerance = 1e-6;
+  const glm::dmat3 axes(m);
+  const glm::dmat3 product = glm::transpose(axes) * axes;
+  bool rigid = std::fabs(glm::determinant(axes) - 1.0) <= 4.0 * kTolerance;
+  for (int c = 0; c < 3; ++c) {
+    for (int r = 0; r < 3; ++r) rigid = rigid && std::fabs(product[c][r] - (c == r ? 1.0 : 0.0)) <= kTolerance;
+  }
+  for (int c = 0; c < 4; ++c) rigid = rigid && m[c][3] == (c == 3 ? 1.0 : 0.0);
+  if (!rigid) Fail("the camera's matrix is not rigid", "rotate and move only: no scale, shear or mirroring");
 }
 
 ResolvedCamera ResolveFree(const FreeCamera& free, double aspect) {
   for (int c = 0; c < 4; ++c) CheckFinite(glm::dvec3(free.world_from_camera[c]), "the camera's matrix");
+  CheckRigid(free.world_from_camera);
   const Camera& lens = free.lens;
   if (lens.orthographic) {
     const bool fine = std::isfinite(lens.xmag) && std::isfinite(lens.ymag) && lens.xmag != 0.0 && lens.ymag != 0.0;
@@ -144,7 +171,7 @@ ResolvedCamera ResolveFree(const FreeCamera& free, double aspect) {
   }
   if (!(lens.zfar > lens.znear)) Fail("zfar must be larger than znear");
   ResolvedCamera camera{free.world_from_camera, lens};
-  camera.lens.aspect = lens.aspect.value_or(aspect);
+  FitLens(aspect, camera.lens);
   return camera;
 }
 
@@ -158,7 +185,9 @@ ResolvedCamera ResolveCamera(const CameraChoice& choice, const Scene& scene, con
     const OrbitCamera orbit{30.0 * kDegree, 75.0 * kDegree, {}, {}, automatic->yfov};
     return ResolveOrbit(orbit, posed, aspect, /*centred=*/true);
   }
-  if (const auto* orbit = std::get_if<OrbitCamera>(&choice)) return ResolveOrbit(*orbit, posed, aspect, /*centred=*/false);
+  if (const auto* orbit = std::get_if<OrbitCamera>(&choice)) {
+    return ResolveOrbit(*orbit, posed, aspect, /*centred=*/false);
+  }
   if (const auto* of_scene = std::get_if<SceneCamera>(&choice)) {
     return ResolveSceneCamera(of_scene->camera, scene, posed, aspect);
   }

@@ -11,7 +11,7 @@ namespace facet {
 
 struct ResolvedCamera {
   glm::dmat4 world_from_camera{1.0};  // rigid; looks along -Z, +Y up
-  Camera lens;                        // perspective: `aspect` is always set
+  Camera lens;                        // `aspect`, or xmag / ymag, is the picture's; both are positive
 };
 
 // The camera for a picture of width x height pixels.
@@ -22,12 +22,16 @@ struct ResolvedCamera {
 // theta 0, the limit of +Y up. Their near plane is so near that it cuts only what surrounds the eye (depth keeps its
 // precision, it is stored as 1 / w); there is no far plane.
 //
-// A SceneCamera's node gives place and direction; its scale and shear are dropped. The picture's aspect ratio replaces
-// the file's: the vertical field of view (or ymag) is kept, more or less is seen to the sides. A FreeCamera is taken as
-// it is, with the picture's aspect ratio where its lens has none.
+// A SceneCamera's node gives place and direction; its scale and shear are dropped. A FreeCamera stands as it is. The
+// lenses of both are fitted to the picture: never cropped nor stretched. In a picture that is narrower than the lens
+// (aspect, or xmag / ymag) the vertical field of view grows until the horizontal one is kept; in a wider one, and where
+// a perspective lens has no aspect ratio, the vertical one is kept and more (or less) is seen to the sides. The sign of
+// xmag and ymag means nothing.
+// Source: glTF 2.0 specification, section 3.10.3.
 //
 // Throws Error(InvalidUsage) for numbers out of range (fields of view outside of (0, pi), angles or matrices that are
-// not finite, a picture without pixels), for a camera that does not exist or that no visible node holds.
+// not finite, a FreeCamera's matrix that is not rigid to 1e-6, a picture without pixels), for a camera that does not
+// exist or that no visible node holds.
 ResolvedCamera ResolveCamera(const CameraChoice& choice, const Scene& scene, const PosedScene& posed, int width,
                              int height);
 

@@ -64,13 +64,20 @@ int MaterialOf(const Primitive& primitive, int variant) {
   return primitive.material;
 }
 
+// Whether shading will read a normal map: the same answer as the plan of the frame gives.
+bool ReadsNormalMap(const Scene& scene, const Material& material) {
+  const TextureRef& ref = material.normal_texture;
+  return !material.unlit && ref && scene.textures[std::size_t(ref.texture)].image >= 0;
+}
+
 Shape MakeShape(const Scene& scene, const Primitive& primitive, int material) {
   Shape shape;
   shape.primitive = &primitive;
   if (material >= 0 && ClassOf(primitive.topology) == PrimitiveClass::Triangles) {
-    const TextureRef& normal_texture = scene.materials[std::size_t(material)].normal_texture;
-    shape.needs_tangents = normal_texture && (primitive.normals.empty() || primitive.tangents.empty());
-    shape.tex_coord = normal_texture.tex_coord;
+    const Material& used = scene.materials[std::size_t(material)];
+    shape.needs_tangents =
+        ReadsNormalMap(scene, used) && (primitive.normals.empty() || primitive.tangents.empty());
+    shape.tex_coord = used.normal_texture.tex_coord;
   }
   return shape;
 }

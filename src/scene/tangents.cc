@@ -191,7 +191,7 @@ class TangentMaker {
     const bool coherent = std::all_of(shares.begin(), shares.end(), [&](const Share& share) {
       return share.undefined || (glm::dot(share.along_u, sum_u) > 0.0 && glm::dot(share.along_v, sum_v) > 0.0);
     });
-    constexpr std::size_t kMostCompared = 1024;  // bounds the time that a hostile file can take
+    constexpr std::size_t kMostCompared = 256;  // bounds the time that a hostile file can take
     const bool compare = !coherent && count <= kMostCompared;
     // In UVs with v up MikkTSpace's sign is +1 for triangles that keep their orientation; glTF's v points down.
     const float w = group.preserves ? -1.0f : 1.0f;
@@ -239,31 +239,59 @@ class TangentMaker {
   Groups groups_;
 };
 
+// For each corner the first one at the same vertex with the same tangent (-0 and +0 are the same). Sorts each vertex's
+// corners: a file may have any number of tangents around one vertex.
+std::vector<std::uint32_t> FirstAlike(const std::vector<glm::vec4>& corner_tangents, const Primitive& primitive) {
+  const std::vector<std::uint32_t>& vertex_of = primitive.indices;
+  const std::size_t vertex_count = primitive.positions.size();
+  std::vector<std::uint32_t> start(vertex_count + 1, 0);  // into sorted, by vertex
+  for (const std::uint32_t v : vertex_of) ++start[v + 1];
+  for (std::size_t v = 0; v < vertex_count; ++v) start[v + 1] += start[v];
+  std::vector<std::uint32_t> sorted(vertex_of.size()), end(start.begin(), start.end() - 1);
+  for (std::size_t c = 0; c < vertex_of.size(); ++c) sorted[end[vertex_of[c]]++] = std::uint32_t(c);
+
+  const auto order = [&](std::uint32_t a, std::uint32_t b) {
+    const glm::vec4 &s = corner_tangents[a], &t = corner_tangents[b];
+    for (int i = 0; i < 4; ++i) {
+      if (s[i] != t[i]) return s[i] < t[i];
+    }
+    return a < b;
+  };
+  std::vector<std::uint32_t> alike(vertex_of.size());
+  ParallelFor(vertex_count, 4096, [&](std::size_t begin, std::size_t last) {
+    for (std::size_t v = begin; v < last; ++v) {
+      std::sort(sorted.begin() + start[v], sorted.begin() + start[v + 1], order);
+      for (std::uint32_t i = start[v]; i < start[v + 1]; ++i) {
+        const std::uint32_t c = sorted[i];
+        const bool follows = i > start[v] && corner_tangents[sorted[i - 1]] == corner_tangents[c];
+        alike[c] = follows ? alike[sorted[i - 1]] : c;
+      }
+    }
+  });
+  return alike;
+}
+
 // Stores one tangent per corner as one per vertex, with copies of vertices whose corners disagree.
 void StoreByVertex(const std::vector<glm::vec4>& corner_tangents, Primitive& primitive) {
-  constexpr std::uint32_t kNone = 0xFFFFFFFFu;
   const std::size_t count = primitive.positions.size();
-  std::vector<std::uint32_t> source(count), next(count, kNone);  // next: the vertex's next copy
+  const std::vector<std::uint32_t> alike = FirstAlike(corner_tangents, primitive);
+  std::vector<std::uint32_t> source(count);
   std::vector<std::uint8_t> used(count, 0);
   std::vector<glm::vec4> tangents(count);
   for (std::size_t v = 0; v < count; ++v) source[v] = std::uint32_t(v);
   for (std::size_t c = 0; c < primitive.indices.size(); ++c) {
-    std::uint32_t v = primitive.indices[c];
-    if (!used[v]) {
+    std::uint32_t& v = primitive.indices[c];
+    if (alike[c] != c) {
+      v = primitive.indices[alike[c]];  // an earlier corner, which has its copy
+    } else if (!used[v]) {
       used[v] = 1;
       tangents[v] = corner_tangents[c];
-      continue;
-    }
-    while (tangents[v] != corner_tangents[c] && next[v] != kNone) v = next[v];
-    if (tangents[v] != corner_tangents[c]) {
+    } else {
       const std::uint32_t copy = std::uint32_t(source.size());
-      next[v] = copy;
-      source.push_back(source[v]);
-      next.push_back(kNone);
+      source.push_back(v);
       tangents.push_back(corner_tangents[c]);
       v = copy;
     }
-    primitive.indices[c] = v;
   }
   for (std::size_t v = 0; v < count; ++v) {
     if (used[v]) continue;

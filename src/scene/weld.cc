@@ -27,19 +27,26 @@ std::uint64_t Hash(const Key& key) {
 
 }  // namespace
 
+// Sorting by hash and key, and not a hash table, because a file can be made so that all its hashes collide.
 std::vector<std::uint32_t> WeldVertices(const Primitive& primitive, const std::vector<glm::vec2>& uvs) {
-  constexpr std::uint32_t kFree = 0xFFFFFFFFu;
+  struct Entry {
+    std::uint64_t hash = 0;
+    std::uint32_t vertex = 0;
+  };
   const std::size_t count = primitive.positions.size();
-  const std::size_t mask = std::bit_ceil(count * 2 + 1) - 1;
-  std::vector<std::uint32_t> slots(mask + 1, kFree);  // open addressing; holds first vertices
-  std::vector<std::uint32_t> first(count);
   const auto key_of = [&](std::size_t i) { return KeyOf(primitive.positions[i], primitive.normals[i], uvs[i]); };
+  std::vector<Entry> entries(count);
+  for (std::size_t i = 0; i < count; ++i) entries[i] = {Hash(key_of(i)), std::uint32_t(i)};
+  std::sort(entries.begin(), entries.end(), [&](const Entry& a, const Entry& b) {
+    if (a.hash != b.hash) return a.hash < b.hash;
+    const Key key_a = key_of(a.vertex), key_b = key_of(b.vertex);
+    return key_a != key_b ? key_a < key_b : a.vertex < b.vertex;
+  });
+  std::vector<std::uint32_t> first(count);
   for (std::size_t i = 0; i < count; ++i) {
-    const Key key = key_of(i);
-    std::size_t slot = std::size_t(Hash(key)) & mask;
-    while (slots[slot] != kFree && key_of(slots[slot]) != key) slot = (slot + 1) & mask;
-    if (slots[slot] == kFree) slots[slot] = std::uint32_t(i);
-    first[i] = slots[slot];
+    const Entry& entry = entries[i];
+    const std::uint32_t previous = i > 0 ? entries[i - 1].vertex : entry.vertex;
+    first[entry.vertex] = key_of(previous) == key_of(entry.vertex) && i > 0 ? first[previous] : entry.vertex;
   }
   return first;
 }

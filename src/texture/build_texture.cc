@@ -146,6 +146,12 @@ void LayOut(TextureData& texture, const Image& image, bool mips) {
 }  // namespace
 
 TextureData BuildTexture(const Image& image, TextureRole role, bool mips) {
+  const bool sized = image.width >= 1 && image.height >= 1 && image.channels >= 1 && image.channels <= 4;
+  if (!sized || image.bytes.size() / image.PixelCount() != std::size_t(image.channels) * SizeOf(image.type)) {
+    throw Error(ErrorCode::InvalidInput,
+                "a picture of " + std::to_string(image.width) + " x " + std::to_string(image.height) + " pixels with " +
+                    std::to_string(image.channels) + " channels in " + std::to_string(image.bytes.size()) + " bytes");
+  }
   TextureData texture;
   texture.wide = role == TextureRole::Color || image.type != ChannelType::U8;
   LayOut(texture, image, mips);

@@ -128,11 +128,14 @@ HWY_INLINE Footprint MakeFootprint(const TextureSlot& slot, Vec2<Float> duv_dx, 
   const Float major = Sqrt(Max(major_squared, tiny));
   const Float minor = determinant / major;
 
+  // Several taps are for smooth filters: what asks for nearest texels, or has no smaller levels, gets one, and that one
+  // covers the whole length.
+  const bool several = slot.sampler.minification == Filter::Linear && slot.sampler.mip != MipFilter::None;
   Footprint f;
   // Fewer taps than the ratio of the axes would blur along the minor one; more would waste.
   const Float ratio = major / Max(minor, Float(1e-15f));
   const Float needed = Max(-Floor(-ratio), Float(1.0f));
-  f.taps = Min(needed, Float(slot.max_anisotropy));
+  f.taps = Min(needed, Float(several ? slot.max_anisotropy : 1.0f));
   f.taps = Select(major > Float(1.0f), f.taps, Float(1.0f));  // magnified: one tap sees it all
   f.lod = Log2(Max(major / f.taps, Max(minor, Float(1e-15f))));
   // The eigenvector of the larger singular value: of the two ways to write it, the one that does not cancel.
@@ -140,8 +143,10 @@ HWY_INLINE Footprint MakeFootprint(const TextureSlot& slot, Vec2<Float> duv_dx, 
   const auto use_p = a >= c;
   const Vec2<Float> axis{Select(use_p, p.x, q.x), Select(use_p, p.y, q.y)};
   const Float length = Sqrt(Max(Dot(axis, axis), tiny));
-  const Float scale = Select(f.taps > Float(1.0f), major / length, Float(0.0f));
-  f.major = {axis.x * scale / width, axis.y * scale / height};
+  const Float scale = major / length;
+  const Mask stretched = f.taps > Float(1.0f);  // selected, not multiplied: axes that overflowed must not become NaN
+  f.major = {Select(stretched, axis.x * scale / width, Float(0.0f)),
+             Select(stretched, axis.y * scale / height, Float(0.0f))};
   return f;
 }
 
@@ -169,10 +174,8 @@ HWY_INLINE Vec4<Float> SampleTexture(const TextureSlot& slot, Vec2<Float> uv_in,
   const Mask linear = (magnified & (sampler.magnification == Filter::Linear ? yes : no)) |
                       (!magnified & (sampler.minification == Filter::Linear ? yes : no));
   if (sampler.mip == MipFilter::None) return SampleLevel<kChannels>(slot, uv, Int(0), linear);
-  if (sampler.mip == MipFilter::Nearest) {
-    return SampleLevel<kChannels>(slot, uv, TruncateToInt(Floor(lod + Float(0.5f))), linear);
-  }
-  const Float base = Floor(lod), blend = lod - base;
+  const bool nearest_level = sampler.mip == MipFilter::Nearest;
+  const Float base = Floor(nearest_level ? lod + Float(0.5f) : lod), blend = nearest_level ? Float(0.0f) : lod - base;
   const Int fine = TruncateToInt(base), coarse = TruncateToInt(Min(base + Float(1.0f), max_level));
   const bool one_level = !Any(blend > Float(0.0f));
   const auto trilinear = [&](Vec2<Float> at) HWY_ATTR {
@@ -181,8 +184,7 @@ HWY_INLINE Vec4<Float> SampleTexture(const TextureSlot& slot, Vec2<Float> uv_in,
     const Vec4<Float> far = SampleLevel<kChannels>(slot, at, coarse, linear);
     return near * (Float(1.0f) - blend) + far * blend;
   };
-  // Only smooth filters take several taps: what asks for texels wants to see them.
-  if (sampler.minification != Filter::Linear || !Any(footprint.taps > Float(1.0f))) return trilinear(uv);
+  if (!Any(footprint.taps > Float(1.0f))) return trilinear(uv);
   Vec4<Float> sum{};
   for (int i = 0; i < 16; ++i) {
     const Float tap(static_cast<float>(i));

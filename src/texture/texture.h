@@ -35,7 +35,8 @@ struct TextureData {
 
 // Builds a texture from a decoded picture. Each level halves the one above, rounding down; a texel is the mean, in
 // linear light, of the area it covers, also where a size is odd. `mips`: false keeps level 0 alone.
-// Throws Error(OutOfMemory) for pictures beyond 32768 texels a side or 2^27 texels.
+// Throws Error: OutOfMemory for pictures beyond 32768 texels a side or 2^27 texels, InvalidInput for pictures without
+// pixels, of other than 1 to 4 channels, or whose bytes do not fit their size.
 TextureData BuildTexture(const Image& image, TextureRole role, bool mips);
 
 // A use of a texture by a material.

@@ -18,21 +18,25 @@ std::vector<TriangleRecord> MixedRecords(Random& random) {
   const auto add = [&](PointFx8 a, PointFx8 b, PointFx8 c) {
     if (DoubleArea(a, b, c) != 0) records.push_back(MakeRecord(a, b, c));
   };
-  const auto inside = [&] { return PointFx8{random.Int(-2000, kWidth * 256 + 2000), random.Int(-2000, kHeight * 256 + 2000)}; };
+  const auto inside = [&] {
+    return PointFx8{random.Int(-2000, kWidth * 256 + 2000), random.Int(-2000, kHeight * 256 + 2000)};
+  };
   for (int i = 0; i < 60; ++i) add(inside(), inside(), inside());
   for (int i = 0; i < 60; ++i) {  // thin diagonals
     const PointFx8 a = inside(), b = inside();
     add(a, b, {a.x + random.Int(-40, 40), a.y + random.Int(-40, 40)});
   }
   for (int i = 0; i < 60; ++i) {  // small ones, many on tile corners
-    const PointFx8 a = {random.Int(0, kWidth / 8) * 2048 + random.Int(-1, 1), random.Int(0, kHeight / 8) * 2048 + random.Int(-1, 1)};
-    add(a, {a.x + random.Int(-300, 300), a.y + random.Int(-300, 300)}, {a.x + random.Int(-300, 300), a.y + random.Int(-300, 300)});
+    const PointFx8 a = {random.Int(0, kWidth / 8) * 2048 + random.Int(-1, 1),
+                        random.Int(0, kHeight / 8) * 2048 + random.Int(-1, 1)};
+    add(a, {a.x + random.Int(-300, 300), a.y + random.Int(-300, 300)},
+        {a.x + random.Int(-300, 300), a.y + random.Int(-300, 300)});
   }
   const int far = 4000000;
-  add({-far, -far}, {far, -far}, {0, far});                        // everything
-  add({-far, -far}, {far, far}, {far, far - 700});                 // a diagonal from end to end
+  add({-far, -far}, {far, -far}, {0, far});         // everything
+  add({-far, -far}, {far, far}, {far, far - 700});  // a diagonal from end to end
   add({-far, kHeight * 128}, {far, kHeight * 128 + 60}, {far, kHeight * 128 + 200});
-  add({kWidth * 256, 0}, {kWidth * 256 + 500, 0}, {kWidth * 256, 900});    // just outside
+  add({kWidth * 256, 0}, {kWidth * 256 + 500, 0}, {kWidth * 256, 900});  // just outside
   add({-500, -500}, {0, -500}, {-500, 0});
   return records;
 }
@@ -50,7 +54,8 @@ TEST(Bin, TilesHoldAllThatBruteForceFinds) {
       for (int y = 0; y < kHeight; ++y) {
         for (int x = 0; x < kWidth; ++x) {
           int bits = 0;
-          for (int s = 0; s < kSamples; ++s) bits |= int{CoversExactly(source.records[i], SampleAt(x, y, kSamples, s))} << s;
+          for (int s = 0; s < kSamples; ++s)
+            bits |= int{CoversExactly(source.records[i], SampleAt(x, y, kSamples, s))} << s;
           if (bits != 0) expected.emplace(static_cast<std::int32_t>(i), x, y, bits);
         }
       }
@@ -71,7 +76,9 @@ TEST(Bin, TilesHoldAllThatBruteForceFinds) {
         std::vector<const TriangleRecord*> pointers;
         std::vector<std::int32_t> numbers;
         for (std::uint32_t e = chunk.begin[t]; e < chunk.begin[t + 1]; ++e) {
-          if (e > chunk.begin[t]) EXPECT_LT(chunk.entries[e - 1], chunk.entries[e]) << "submission order";
+          if (e > chunk.begin[t]) {
+            EXPECT_LT(chunk.entries[e - 1], chunk.entries[e]) << "submission order";
+          }
           pointers.push_back(&chunk.records[chunk.entries[e]]);
           numbers.push_back(static_cast<std::int32_t>(chunk.entries[e]));
         }
@@ -80,8 +87,8 @@ TEST(Bin, TilesHoldAllThatBruteForceFinds) {
         FragmentList fragments;
         RasterCollect({pointers.data(), numbers.data(), pointers.size()}, tile, fragments);
         for (std::size_t i = 0; i < fragments.Size(); ++i) {
-          got.emplace(fragments.record[i], tile.x0 + fragments.pixel[i] % tile_size, tile.y0 + fragments.pixel[i] / tile_size,
-                      fragments.samples[i]);
+          got.emplace(fragments.record[i], tile.x0 + fragments.pixel[i] % tile_size,
+                      tile.y0 + fragments.pixel[i] / tile_size, fragments.samples[i]);
         }
       }
       EXPECT_TRUE(got == expected) << got.size() << " fragments, not " << expected.size();
@@ -103,7 +110,8 @@ TEST(Bin, NothingForRecordsOutsideThePicture) {
   const TileGrid grid = MakeTileGrid(100, 100, 16);
   TriangleChunk chunk;
   chunk.records = {MakeRecord({-900, 0}, {-100, 0}, {-500, 900}), MakeRecord({0, -900}, {900, -900}, {0, -10}),
-                   MakeRecord({112 * 256, 0}, {120 * 256, 0}, {112 * 256, 2000}), MakeRecord({0, 112 * 256}, {900, 112 * 256}, {0, 113 * 256})};
+                   MakeRecord({112 * 256, 0}, {120 * 256, 0}, {112 * 256, 2000}),
+                   MakeRecord({0, 112 * 256}, {900, 112 * 256}, {0, 113 * 256})};
   BinChunk(grid, chunk);
   EXPECT_TRUE(chunk.entries.empty());
   EXPECT_TRUE(chunk.tiles.empty());

@@ -74,6 +74,54 @@ TEST(FacetInfo, TextNamesEverything) {
   }
 }
 
+TEST(FacetInfo, PicturesAreDescribedWithoutDecoding) {
+  const Folder folder;
+  // The headers of a grey-and-alpha PNG of 640 x 480, and of a JPEG that ends before its size.
+  const std::string images = R"("images": [
+      {"name": "Wood", "uri": "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAoAAAAHgCAQAAAA="},
+      {"name": "Cut off", "uri": "data:image/jpeg;base64,/9j/4A=="},
+      {"name": "Nowhere", "uri": "nowhere.png"}],)";
+  const std::string in = folder / "in.gltf";
+  WriteText(in, TinyScene(images));
+  const nlohmann::json info = Info(in).at("images");
+  ASSERT_EQ(info.size(), 3u);
+  EXPECT_EQ(info[0], (nlohmann::json{{"name", "Wood"},
+                                     {"source", "image 0 of in.gltf"},
+                                     {"format", "PNG"},
+                                     {"width", 640},
+                                     {"height", 480},
+                                     {"channels", 2},
+                                     {"bits", 8},
+                                     {"bytes", 29},
+                                     {"textures", 0}}));
+  EXPECT_EQ(info[1].at("format"), "JPEG");
+  EXPECT_EQ(info[1].at("bytes"), 4);
+  for (const char* key : {"width", "height", "channels", "bits"}) EXPECT_TRUE(info[1].at(key).is_null()) << key;
+  for (const char* key : {"format", "width", "height", "channels", "bits", "bytes"}) {
+    EXPECT_TRUE(info[2].at(key).is_null()) << key;
+  }
+  const std::string human = RunFacet({"info", in}).out;
+  for (const char* words : {"PNG, 640x480, 2 x 8 bits, 29 bytes, not used", "JPEG, unknown size, 4 bytes, not used",
+                            "unknown format, not used"}) {
+    EXPECT_NE(human.find(words), std::string::npos) << words << " is missing in\n" << human;
+  }
+}
+
+TEST(FacetInfo, NamesOfAnyLengthStayApartFromWhatFollows) {
+  const Folder folder;
+  const std::string in = folder / "in.gltf";
+  const std::string name(60, 'n');
+  for (const bool all : {true, false}) {
+    std::string text = TinyScene();
+    text.replace(text.find("\"name\": \"Unlit\""), 15, "\"name\": \"" + name + "\"");
+    if (all) text.replace(text.find("\"name\": \"Lit\", \"prim") + 9, 3, name);
+    WriteText(in, text);
+    const std::string human = RunFacet({"info", in}).out;
+    EXPECT_NE(human.find("  0  " + name + "  2 triangles"), std::string::npos) << human;
+    EXPECT_NE(human.find(all ? "  1  " + name + "  2 triangles" : "  1  Lit  2 triangles"), std::string::npos) << human;
+  }
+}
+
 TEST(FacetInfo, NamesThatAreNoUtf8StillMakeJson) {
   const Folder folder;
   const std::string in = folder / "in.gltf";
@@ -100,7 +148,14 @@ TEST(FacetInfo, DamagedHelmet) {
   EXPECT_EQ(info.at("geometry").at("triangles"), 15452);
   ASSERT_EQ(info.at("materials").size(), 1u);
   EXPECT_EQ(info.at("materials")[0].at("textures").size(), 5u);
-  EXPECT_EQ(info.at("images").size(), 5u);
+  ASSERT_EQ(info.at("images").size(), 5u);
+  for (const auto& image : info.at("images")) {
+    EXPECT_EQ(image.at("format"), "JPEG");
+    EXPECT_EQ(image.at("width"), 2048);
+    EXPECT_EQ(image.at("height"), 2048);
+    EXPECT_EQ(image.at("channels"), 3);
+    EXPECT_GT(image.at("bytes"), 90000);
+  }
   EXPECT_TRUE(info.at("warnings").empty());
 }
 
@@ -112,6 +167,11 @@ TEST(FacetInfo, DescribesEveryModelOfTheCorpus) {
     if (extension != ".glb" && extension != ".gltf") continue;
     const nlohmann::json info = Info(entry.path().string());
     EXPECT_TRUE(info.contains("scenes")) << entry.path();
+    for (const auto& image : info.at("images")) {
+      for (const char* key : {"format", "width", "height", "channels", "bits", "bytes"}) {
+        EXPECT_FALSE(image.at(key).is_null()) << entry.path() << ": " << key << " of " << image;
+      }
+    }
     ++described;
   }
   EXPECT_GE(described, 78);

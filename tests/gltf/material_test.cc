@@ -134,6 +134,42 @@ TEST(MaterialFile, PicturesFromFilesAndDataUrisAreDecodedWhenAsked) {
   EXPECT_EQ(beside.scene.images.at(0).source->Decode().width, 1);
 }
 
+TEST(MaterialFile, HeadersAreReadWithoutDecoding) {
+  const auto expect = [](const ImageSource& source, const char* format, int width, int height, std::size_t bytes) {
+    const auto header = source.Header();
+    ASSERT_TRUE(header) << source.Name();
+    EXPECT_EQ(header->format, format);
+    EXPECT_EQ(header->width, width);
+    EXPECT_EQ(header->height, height);
+    EXPECT_EQ(header->bits, 8);
+    EXPECT_EQ(header->bytes, bytes);
+  };
+  const auto png = gltf::DecodeBase64(kOnePixelPng);
+  ASSERT_TRUE(png);
+  // JPEGs of which there is only a header: at the start, and behind segments longer than one read.
+  const std::string frame("\xFF\xC0\0\x11\x08\0\x20\0\x30\3 frame", 16);
+  const std::string segment = std::string("\xFF\xE2\xFF\xFF", 4) + std::string(65533, 'x');
+  const std::string near = "\xFF\xD8" + frame + std::string(100000, 'x');
+  const std::string behind = "\xFF\xD8" + segment + segment + frame + std::string(100000, 'x');
+  const TempFolder folder;
+  folder.Write("near.jpg", near);
+  folder.Write("behind.jpg", behind);
+  folder.Write("gone.jpg", near);
+  folder.Write("text.jpg", "no picture");
+  const LoadedScene loaded = LoadGltf(folder.Write(
+      "a.gltf", Root(R"("images":[{"uri":"near.jpg"},{"uri":"behind.jpg"},{"uri":"gone.jpg"},{"uri":"text.jpg"},
+                                  {"uri":"nowhere.jpg"},{"uri":"data:image/png;base64,)" +
+                     std::string(kOnePixelPng) + "\"}]")));
+  const auto& images = loaded.scene.images;
+  ASSERT_EQ(images.size(), 6u);
+  expect(*images[0].source, "JPEG", 48, 32, near.size());
+  expect(*images[1].source, "JPEG", 48, 32, behind.size());
+  EXPECT_TRUE(images[2].source->Header());
+  std::filesystem::remove(folder.Path() / "gone.jpg");
+  for (const std::size_t i : {2u, 3u, 4u}) EXPECT_FALSE(images[i].source->Header()) << i;
+  expect(*images[5].source, "PNG", 1, 1, png->size);
+}
+
 TEST(MaterialFile, MissingPicturesAreAWarningAndAnErrorWhenDecoded) {
   const LoadedScene loaded = LoadBytes(Root(R"("images":[{"uri":"nowhere.png"},{"uri":"data:image/png;base64,!"},{},
                                                 {"uri":"https://example.com/a.png"}])"));

@@ -82,6 +82,14 @@ TEST(Convert, SourcesOverMemoryGiveThePictureBack) {
   const Image image = MakePattern(5, 4, 3, ChannelType::U8);
   const auto source = MakeImageSource(image, "image 3");
   EXPECT_EQ(source->Name(), "image 3");
+  const auto header = source->Header();
+  ASSERT_TRUE(header);
+  EXPECT_EQ(header->format, "");
+  EXPECT_EQ(header->width, 5);
+  EXPECT_EQ(header->height, 4);
+  EXPECT_EQ(header->channels, 3);
+  EXPECT_EQ(header->bits, 8);
+  EXPECT_EQ(header->bytes, 60u);
   ExpectSame(source->Decode(), image);
 }
 

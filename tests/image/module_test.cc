@@ -1,4 +1,6 @@
 // The OpenImageIO module: formats that facet itself does not read, agreement with facet's decoders, and its absence.
+#include <chrono>
+#include <thread>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -27,6 +29,18 @@ std::vector<std::filesystem::path> Files(const std::filesystem::path& folder, co
   }
   std::sort(out.begin(), out.end());
   return out;
+}
+
+TEST(Module, FilesAreAFunctionOfThePictureAlone) {
+  TemporaryFolder folder;
+  const Image image = MakePattern(16, 16, 3, ChannelType::F32);
+  for (const char* name : {"a.exr", "a.tif"}) {
+    WriteImage(folder / name, image);
+    const std::vector<std::byte> first = ReadFileWhole(folder / name);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1100));  // clocks in files count seconds
+    WriteImage(folder / name, image);
+    EXPECT_EQ(ReadFileWhole(folder / name), first) << name;
+  }
 }
 
 TEST(Module, AgreesWithOursOnEveryPngOfTheCorpus) {

@@ -6,8 +6,8 @@
 namespace facet::test {
 namespace {
 
-// Every sample of the half-open rectangle is covered once and no other sample at all, whatever the target, the number of
-// samples and the tile size.
+// Every sample of the half-open rectangle is covered once and no other sample at all, whatever the target, the number
+// of samples and the tile size.
 void ExpectWatertight(const std::vector<TriangleRecord>& records, PointFx8 low, PointFx8 high, int width, int height) {
   for (const Target target : AvailableTargets()) {
     const ScopedTarget scoped(target);
@@ -31,16 +31,19 @@ int MultipleWithin(Random& random, int step, int offset, int low, int high) {
 // Kinds of places where a rasteriser errs.
 PointFx8 AwkwardPoint(Random& random, const Triangulation& mesh, PointFx8 low, PointFx8 high) {
   const auto on_grid = [&](int step, int offset) {
-    return PointFx8{MultipleWithin(random, step, offset, low.x, high.x), MultipleWithin(random, step, offset, low.y, high.y)};
+    return PointFx8{MultipleWithin(random, step, offset, low.x, high.x),
+                    MultipleWithin(random, step, offset, low.y, high.y)};
   };
-  const PointFx8 a = mesh.points[random.Next() % mesh.points.size()], b = mesh.points[random.Next() % mesh.points.size()];
+  const PointFx8 a = mesh.points[random.Next() % mesh.points.size()],
+                 b = mesh.points[random.Next() % mesh.points.size()];
   switch (random.Int(0, 7)) {
-    case 0: return on_grid(16, 0);      // where samples may stand
-    case 1: return on_grid(256, 128);   // pixel centres
-    case 2: return on_grid(256, 0);     // pixel corners
-    case 3: return on_grid(2048, 0);    // block corners
-    case 4: return {std::clamp(a.x + random.Int(-2, 2), low.x, high.x), std::clamp(a.y + random.Int(-2, 2), low.y, high.y)};
-    case 5: return {a.x, b.y};          // in line with others
+    case 0: return on_grid(16, 0);     // where samples may stand
+    case 1: return on_grid(256, 128);  // pixel centres
+    case 2: return on_grid(256, 0);    // pixel corners
+    case 3: return on_grid(2048, 0);   // block corners
+    case 4:
+      return {std::clamp(a.x + random.Int(-2, 2), low.x, high.x), std::clamp(a.y + random.Int(-2, 2), low.y, high.y)};
+    case 5: return {a.x, b.y};  // in line with others
     case 6: return {a.x + (b.x - a.x) / 2, a.y + (b.y - a.y) / 2};
     default: return on_grid(1, 0);
   }
@@ -116,7 +119,12 @@ TEST(Watertight, Fans) {
       std::sort(steps.begin(), steps.end());
       steps.erase(std::unique(steps.begin(), steps.end()), steps.end());
       for (const int k : steps) {
-        rim.push_back({from.x + (to.x > from.x ? k : to.x < from.x ? -k : 0), from.y + (to.y > from.y ? k : to.y < from.y ? -k : 0)});
+        rim.push_back({from.x + (to.x > from.x   ? k
+                                 : to.x < from.x ? -k
+                                                 : 0),
+                       from.y + (to.y > from.y   ? k
+                                 : to.y < from.y ? -k
+                                                 : 0)});
       }
     };
     side(low, {high.x, low.y});
@@ -176,8 +184,11 @@ TEST(Coverage, RandomTrianglesMatchBruteForce) {
   for (int i = 0; i < 250; ++i) {
     SCOPED_TRACE("seed 11, triangle " + std::to_string(i));
     const int step = i % 4 == 0 ? 16 : i % 4 == 1 ? 128 : 1;
-    const auto point = [&] { return PointFx8{random.Int(-5000 / step, 30000 / step) * step, random.Int(-5000 / step, 30000 / step) * step}; };
-    const PointFx8 a = point(), b = point(), c = i % 5 == 0 ? PointFx8{a.x + random.Int(-300, 300), a.y + random.Int(-300, 300)} : point();
+    const auto point = [&] {
+      return PointFx8{random.Int(-5000 / step, 30000 / step) * step, random.Int(-5000 / step, 30000 / step) * step};
+    };
+    const PointFx8 a = point(), b = point(),
+                   c = i % 5 == 0 ? PointFx8{a.x + random.Int(-300, 300), a.y + random.Int(-300, 300)} : point();
     if (DoubleArea(a, b, c) == 0) continue;
     ExpectExact(MakeRecord(a, b, c), 0, 0, 64);
     const int tile_size = kTileSizes[random.Int(0, 3)];
@@ -192,7 +203,8 @@ TEST(Coverage, HugeTrianglesMatchBruteForce) {
   for (int i = 0; i < 250; ++i) {
     SCOPED_TRACE("seed 12, triangle " + std::to_string(i));
     const auto corner = [&] { return random.Int(0, 1) == 0 ? kLow : kHigh; };
-    PointFx8 a = {random.Int(kLow, kHigh), random.Int(kLow, kHigh)}, b = {random.Int(kLow, kHigh), corner()}, c = {corner(), random.Int(kLow, kHigh)};
+    PointFx8 a = {random.Int(kLow, kHigh), random.Int(kLow, kHigh)}, b = {random.Int(kLow, kHigh), corner()},
+             c = {corner(), random.Int(kLow, kHigh)};
     if (i % 3 == 0) a = {corner(), corner()}, b = {corner(), corner()};
     if (i % 3 == 1) c = {a.x + random.Int(-40, 40), a.y + random.Int(-40, 40)};  // a sliver
     if (DoubleArea(a, b, c) == 0) continue;
@@ -211,7 +223,9 @@ TEST(Coverage, EdgesThroughSamples) {
   for (int i = 0; i < 400; ++i) {
     SCOPED_TRACE("seed 13, triangle " + std::to_string(i));
     const int samples = kSampleCounts[random.Int(0, 3)];
-    const auto sample = [&] { return SampleAt(random.Int(0, 15), random.Int(0, 15), samples, random.Int(0, samples - 1)); };
+    const auto sample = [&] {
+      return SampleAt(random.Int(0, 15), random.Int(0, 15), samples, random.Int(0, samples - 1));
+    };
     const PointFx8 a = sample(), b = sample(), c = sample();
     if (DoubleArea(a, b, c) != 0) ExpectExact(MakeRecord(a, b, c), 0, 0, 16);
   }
@@ -224,7 +238,10 @@ TEST(Coverage, TopLeftRuleByHand) {
   for (const Target target : AvailableTargets()) {
     const ScopedTarget scoped(target);
     CoverageCount got = CountCoverage({r}, 8, 8, 8, 1);
-    EXPECT_EQ(Differences(got, [](int x, int y, int) { return (x == 1 && y == 1) || (x == 2 && y == 1) || (x == 1 && y == 2) ? 1 : 0; }), "")
+    EXPECT_EQ(
+        Differences(got, [](int x, int y,
+                            int) { return (x == 1 && y == 1) || (x == 2 && y == 1) || (x == 1 && y == 2) ? 1 : 0; }),
+        "")
         << TargetName(target);
   }
 }

@@ -16,7 +16,8 @@ std::vector<TriangleRecord> RandomRecords(Random& random, int count) {
   while (static_cast<int>(records.size()) < count) {
     const auto point = [&] { return PointFx8{random.Int(-3000, 18000), random.Int(-3000, 15000)}; };
     const auto depth = [&] { return static_cast<float>(random.Real(0.01, 3.0)); };
-    const PointFx8 a = point(), b = point(), c = random.Int(0, 3) == 0 ? PointFx8{a.x + random.Int(-200, 200), a.y + 3} : point();
+    const PointFx8 a = point(), b = point(),
+                   c = random.Int(0, 3) == 0 ? PointFx8{a.x + random.Int(-200, 200), a.y + 3} : point();
     if (DoubleArea(a, b, c) != 0) records.push_back(MakeRecord(a, b, c, depth(), depth(), depth()));
   }
   return records;
@@ -36,8 +37,10 @@ void ForEachTile(int tile_size, int samples, const Visit& visit) {
 // Depth at a point by barycentric coordinates in extended precision, from the vertices' own depths.
 long double AffineDepth(const PointFx8* v, const float* z, PointFx8 p) {
   const long double area = static_cast<long double>(DoubleArea(v[0], v[1], v[2]));
-  return (static_cast<long double>(DoubleArea(v[1], v[2], p)) * z[0] + static_cast<long double>(DoubleArea(v[2], v[0], p)) * z[1] +
-          static_cast<long double>(DoubleArea(v[0], v[1], p)) * z[2]) / area;
+  return (static_cast<long double>(DoubleArea(v[1], v[2], p)) * z[0] +
+          static_cast<long double>(DoubleArea(v[2], v[0], p)) * z[1] +
+          static_cast<long double>(DoubleArea(v[0], v[1], p)) * z[2]) /
+         area;
 }
 
 TEST(Depth, IsTheAffineFunctionThroughTheVertices) {
@@ -47,7 +50,8 @@ TEST(Depth, IsTheAffineFunctionThroughTheVertices) {
     const int reach = i % 2 == 0 ? 0 : 4000000;  // some reach far out of the picture
     const auto coordinate = [&] { return random.Int(-reach, 15000 + reach); };
     const PointFx8 v[3] = {{coordinate(), coordinate()}, {coordinate(), coordinate()}, {coordinate(), coordinate()}};
-    const float z[3] = {static_cast<float>(random.Real(0.1, 2.0)), static_cast<float>(random.Real(0.1, 2.0)), static_cast<float>(random.Real(0.1, 2.0))};
+    const float z[3] = {static_cast<float>(random.Real(0.1, 2.0)), static_cast<float>(random.Real(0.1, 2.0)),
+                        static_cast<float>(random.Real(0.1, 2.0))};
     if (std::abs(DoubleArea(v[0], v[1], v[2])) < 1000000) continue;
     const std::vector<TriangleRecord> records = {MakeRecord(v[0], v[1], v[2], z[0], z[1], z[2])};
     const Submission submission(records);
@@ -104,7 +108,8 @@ TEST(Depth, NearestWinsAndFirstAtEqualDepth) {
             }
           }
         }
-        EXPECT_EQ(wrong, 0) << TargetName(target) << ", seed 22, " << samples << " samples, tile " << tile.x0 << ", " << tile.y0;
+        EXPECT_EQ(wrong, 0) << TargetName(target) << ", seed 22, " << samples << " samples, tile " << tile.x0 << ", "
+                            << tile.y0;
       });
     }
   }
@@ -193,10 +198,37 @@ TEST(Fragments, WritingThemIsDrawing) {
   }
 }
 
+// Fragments that were collected before any of them was written: the nearest stays, the first at equal depth.
+TEST(Fragments, WritingKeepsTheNearestAndTheFirst) {
+  Random random(27);
+  std::vector<TriangleRecord> records = RandomRecords(random, 20);
+  for (std::size_t i = 0; i < 20; ++i) records.push_back(records[i]);
+  const Submission submission(records);
+  ForEachTile(64, 4, [&](TileBuffers& drawn) {
+    TileBuffers written = drawn;
+    RasterOpaque(submission.All(), drawn);
+    FragmentList fragments;
+    RasterCollect(submission.All(), written, fragments);
+    for (std::size_t k = 0; k < fragments.Size(); ++k) {
+      WriteFragment(records[std::size_t(fragments.record[k])], fragments.record[k], fragments.pixel[k],
+                    fragments.samples[k], written);
+    }
+    int wrong = 0;
+    for (int y = 0; y < drawn.height; ++y) {
+      for (int x = 0; x < drawn.width; ++x) {
+        for (int s = 0; s < 4; ++s) wrong += drawn.record[drawn.Index(x, y, s)] != written.record[drawn.Index(x, y, s)];
+      }
+    }
+    EXPECT_EQ(wrong, 0) << "seed 27";
+  });
+}
+
 TEST(Fragments, CollectingLeavesOutWhatIsHidden) {
   // A near rectangle hides the left half; what is collected behind it lies to the right, at every sample.
-  const std::vector<TriangleRecord> near_half = {MakeRecord({0, 0}, {2048, 0}, {2048, 4096}, 2, 2, 2), MakeRecord({0, 0}, {2048, 4096}, {0, 4096}, 2, 2, 2)};
-  const std::vector<TriangleRecord> behind = {MakeRecord({0, 0}, {4096, 0}, {4096, 4096}, 1, 1, 1), MakeRecord({0, 0}, {4096, 4096}, {0, 4096}, 1, 1, 1)};
+  const std::vector<TriangleRecord> near_half = {MakeRecord({0, 0}, {2048, 0}, {2048, 4096}, 2, 2, 2),
+                                                 MakeRecord({0, 0}, {2048, 4096}, {0, 4096}, 2, 2, 2)};
+  const std::vector<TriangleRecord> behind = {MakeRecord({0, 0}, {4096, 0}, {4096, 4096}, 1, 1, 1),
+                                              MakeRecord({0, 0}, {4096, 4096}, {0, 4096}, 1, 1, 1)};
   for (const Target target : AvailableTargets()) {
     const ScopedTarget scoped(target);
     TileBuffers tile = MakeTile(MakeTileGrid(16, 16, 16), 0, 0, 4);
@@ -206,7 +238,8 @@ TEST(Fragments, CollectingLeavesOutWhatIsHidden) {
     RasterCollect(Submission(behind).All(), tile, fragments);
     std::vector<int> bits(256);
     for (std::size_t i = 0; i < fragments.Size(); ++i) bits[fragments.pixel[i]] += fragments.samples[i];
-    for (int i = 0; i < 256; ++i) EXPECT_EQ(bits[std::size_t(i)], i % 16 < 8 ? 0 : 15) << "pixel " << i << ", " << TargetName(target);
+    for (int i = 0; i < 256; ++i)
+      EXPECT_EQ(bits[std::size_t(i)], i % 16 < 8 ? 0 : 15) << "pixel " << i << ", " << TargetName(target);
     EXPECT_EQ(tile.depth, before.depth);
     EXPECT_EQ(tile.record, before.record);
     // Triangle order.
@@ -230,7 +263,9 @@ TEST(Fragments, VisibleOnesPartitionTheSamples) {
           ASSERT_LT(x, tile.width);
           ASSERT_LT(y, tile.height);
           ASSERT_NE(fragments.samples[i], 0);
-          if (i > 0) ASSERT_GE(fragments.pixel[i], fragments.pixel[i - 1]) << "row by row";
+          if (i > 0) {
+            ASSERT_GE(fragments.pixel[i], fragments.pixel[i - 1]) << "row by row";
+          }
           for (std::size_t k = i; k-- > 0 && fragments.pixel[k] == fragments.pixel[i];) {
             ASSERT_NE(fragments.record[k], fragments.record[i]) << "one fragment for each pixel and triangle";
           }

@@ -47,7 +47,8 @@ inline std::int64_t DoubleArea(PointFx8 a, PointFx8 b, PointFx8 c) {
 }
 
 // A record with a depth plane through the three depths. The area must not be 0; the vertices are put in order.
-inline TriangleRecord MakeRecord(PointFx8 a, PointFx8 b, PointFx8 c, float za = 1.0f, float zb = 1.0f, float zc = 1.0f) {
+inline TriangleRecord MakeRecord(PointFx8 a, PointFx8 b, PointFx8 c, float za = 1.0f, float zb = 1.0f,
+                                 float zc = 1.0f) {
   if (DoubleArea(a, b, c) < 0) std::swap(b, c), std::swap(zb, zc);
   const double scale = 256.0 / static_cast<double>(DoubleArea(a, b, c));
   const double x1 = b.x - a.x, y1 = b.y - a.y, x2 = c.x - a.x, y2 = c.y - a.y;
@@ -56,8 +57,8 @@ inline TriangleRecord MakeRecord(PointFx8 a, PointFx8 b, PointFx8 c, float za = 
   r.x_fx8[0] = a.x, r.x_fx8[1] = b.x, r.x_fx8[2] = c.x;
   r.y_fx8[0] = a.y, r.y_fx8[1] = b.y, r.y_fx8[2] = c.y;
   r.depth_0 = za;
-  r.depth_dx = static_cast<float>((z1 * y2 - z2 * y1) * scale);
-  r.depth_dy = static_cast<float>((z2 * x1 - z1 * x2) * scale);
+  r.depth_dx = (z1 * y2 - z2 * y1) * scale;
+  r.depth_dy = (z2 * x1 - z1 * x2) * scale;
   r.depth_min = std::min({za, zb, zc});
   r.depth_max = std::max({za, zb, zc});
   r.kind = RecordKind::Triangle;
@@ -71,8 +72,8 @@ inline PointFx8 SampleAt(int x, int y, int samples, int s) {
 }
 
 // Whether the triangle covers the point. The top-left rule as a displacement: the point is moved to the right by an
-// infinitesimal amount and down by an infinitely smaller one; then it lies on no edge, and on the inner side of left and
-// of top edges that it lay on.
+// infinitesimal amount and down by an infinitely smaller one; then it lies on no edge, and on the inner side of left
+// and of top edges that it lay on.
 inline bool CoversExactly(const TriangleRecord& r, PointFx8 p) {
   const PointFx8 v[3] = {{r.x_fx8[0], r.y_fx8[0]}, {r.x_fx8[1], r.y_fx8[1]}, {r.x_fx8[2], r.y_fx8[2]}};
   const std::int64_t orientation = DoubleArea(v[0], v[1], v[2]);
@@ -127,7 +128,8 @@ struct CoverageCount {
   int width, height, samples;
   std::vector<int> count;
 
-  CoverageCount(int w, int h, int n) : width(w), height(h), samples(n), count(std::size_t(w) * std::size_t(h) * std::size_t(n)) {}
+  CoverageCount(int w, int h, int n)
+      : width(w), height(h), samples(n), count(std::size_t(w) * std::size_t(h) * std::size_t(n)) {}
   int& At(int x, int y, int s) { return count[std::size_t((y * width + x) * samples + s)]; }
   int Total() const {
     int sum = 0;
@@ -223,7 +225,8 @@ class Triangulation {
   void Flip(Random& random) {
     const std::size_t t = random.Next() % triangles.size();
     const int k = random.Int(0, 2);
-    const int a = triangles[t][std::size_t(k)], b = triangles[t][std::size_t((k + 1) % 3)], c = triangles[t][std::size_t((k + 2) % 3)];
+    const int a = triangles[t][std::size_t(k)], b = triangles[t][std::size_t((k + 1) % 3)],
+              c = triangles[t][std::size_t((k + 2) % 3)];
     for (std::size_t u = 0; u < triangles.size(); ++u) {
       for (std::size_t j = 0; j < 3; ++j) {
         if (triangles[u][j] != b || triangles[u][(j + 1) % 3] != a) continue;

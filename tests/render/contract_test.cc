@@ -37,11 +37,20 @@ TEST(Contract, SettingsOutOfRangeAreRefusedWithTheRange) {
       {"8, 16, 32 or 64", [](RenderSettings& s) { s.tile_size = 24; }},
       {"8, 16, 32 or 64", [](RenderSettings& s) { s.tile_size = 128; }},
       {"environment", [](RenderSettings& s) { s.environment.kind = EnvironmentSettings::Kind::Image; }},
+      {"radians", [](RenderSettings& s) { s.environment.rotation = kNan; }},
+      {"radians", [](RenderSettings& s) { s.environment.rotation = -kInfinity; }},
+      {"0 to ", [](RenderSettings& s) { s.environment.intensity = kNan; }},
+      {"0 to ", [](RenderSettings& s) { s.environment.intensity = kInfinity; }},
+      {"0 to ", [](RenderSettings& s) { s.environment.intensity = -1.0; }},
+      {"seconds", [](RenderSettings& s) { s.time = kNan; }},
       {"", [](RenderSettings& s) { s.scene = 1; }},
       {"", [](RenderSettings& s) { s.animation = 0; }},
       {"", [](RenderSettings& s) { s.variant = 0; }},
       {"camera", [](RenderSettings& s) { s.camera = SceneCamera{0}; }},
-      {"field of view", [](RenderSettings& s) { s.camera = Perspective(4.0, {0, 0, 1}); }},
+      {"field of view",
+       [](RenderSettings& s) {
+         s.camera = Perspective(4.0, {0, 0, 1});
+       }},
   };
   Scene scene;
   Add(scene, Rectangle(-1, -1, 1, 1), -1);
@@ -166,6 +175,33 @@ TEST(Contract, APictureThatCannotBeDecodedIsAWarning) {
   for (const glm::vec4& pixel : film.pixels) ASSERT_EQ(pixel, glm::vec4(0.25f, 0.5f, 1.0f, 1.0f));
 }
 
+// A source of one's own may hand over nonsense.
+TEST(Contract, APictureWhoseBytesDoNotFitItsSizeIsAWarning) {
+  const std::function<void(Image&)> spoil[] = {
+      [](Image& i) { i.bytes.resize(15); },
+      [](Image& i) { i.bytes.clear(); },
+      [](Image& i) { i.width = 0; },
+      [](Image& i) { i.height = -1; },
+      [](Image& i) { i.channels = 5; },
+      [](Image& i) { i.channels = 0; },
+      [](Image& i) { i.type = ChannelType::F32; },
+      [](Image& i) { i.width = i.height = 2000000000; },
+  };
+  for (const auto& change : spoil) {
+    Image image = Picture(2, 2, [](int, int) { return glm::u8vec4(7); });
+    change(image);
+    Scene scene;
+    Material material = Unlit({0.25f, 0.5f, 1.0f, 1.0f});
+    material.base_color_texture = Ref(AddTexture(scene, image));
+    Add(scene, Rectangle(-1, -1, 1, 1), AddMaterial(scene, material));
+    RenderStats stats;
+    const Film film = Render(scene, Settings(8, 8, 1, Orthographic(1.0)), &stats);
+    ASSERT_EQ(stats.warnings.size(), 1u);
+    EXPECT_EQ(stats.warnings[0].rfind("picture: ", 0), 0u) << stats.warnings[0];  // its name
+    for (const glm::vec4& pixel : film.pixels) ASSERT_EQ(pixel, glm::vec4(0.25f, 0.5f, 1.0f, 1.0f));
+  }
+}
+
 TEST(Contract, PicturesOfWhatIsNotVisibleAreNotDecoded) {
   const auto source = std::make_shared<CountedSource>();
   const auto render = [&](const std::function<void(Scene&)>& change) {
@@ -187,13 +223,14 @@ TEST(Contract, PicturesOfWhatIsNotVisibleAreNotDecoded) {
   EXPECT_EQ(render([](Scene& s) { s.nodes[0].transform.rotation = glm::dquat(0, 0, 1, 0); }), 0) << "a back face";
   EXPECT_EQ(render([](Scene& s) { s.nodes[0].transform.scale = glm::dvec3(0.0); }), 0) << "a point";
   EXPECT_EQ(render([](Scene& s) { s.meshes[0].primitives[0].material = -1; }), 0) << "a material nothing uses";
-  EXPECT_EQ(render([](Scene& s) {
-              std::swap(s.materials[0].base_color_texture, s.materials[0].emissive_texture);
-            }), 0) << "emission of nothing";
+  EXPECT_EQ(render([](Scene& s) { std::swap(s.materials[0].base_color_texture, s.materials[0].emissive_texture); }), 0)
+      << "emission of nothing";
   EXPECT_EQ(render([](Scene& s) {
               s.materials[0].unlit = true;
               std::swap(s.materials[0].base_color_texture, s.materials[0].normal_texture);
-            }), 0) << "normals of what is unlit";
+            }),
+            0)
+      << "normals of what is unlit";
 }
 
 TEST(Contract, APictureInTwoRolesIsDecodedOnce) {

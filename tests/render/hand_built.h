@@ -91,8 +91,8 @@ inline Primitive Sphere(float radius, int rings, int segments) {
   const auto index = [&](int i, int k) { return std::uint32_t(i * (segments + 1) + k); };
   for (int i = 0; i < rings; ++i) {
     for (int k = 0; k < segments; ++k) {
-      for (std::uint32_t v : {index(i, k), index(i + 1, k), index(i + 1, k + 1), index(i, k), index(i + 1, k + 1),
-                              index(i, k + 1)}) {
+      for (std::uint32_t v :
+           {index(i, k), index(i + 1, k), index(i + 1, k + 1), index(i, k), index(i + 1, k + 1), index(i, k + 1)}) {
         p.indices.push_back(v);
       }
     }

@@ -146,9 +146,10 @@ TEST(InvarianceOfMasks, TileSizesAndOrder) {
   Scene scene;
   Uniform random(3);
   Material mask = Unlit(glm::vec4(1.0f), AlphaMode::Mask);
-  mask.base_color_texture = Ref(AddTexture(scene, Picture(64, 64, [&](int, int) {
-    return glm::u8vec4(random() * 256, random() * 256, random() * 256, random() * 256);
-  })));
+  mask.base_color_texture =
+      Ref(AddTexture(scene, Picture(64, 64, [&](int, int) {
+                       return glm::u8vec4(random() * 256, random() * 256, random() * 256, random() * 256);
+                     })));
   const int material = AddMaterial(scene, mask);
   Primitive p;
   p.tex_coords.resize(1);

@@ -99,12 +99,14 @@ const std::array<std::vector<glm::ivec2>, 4> kPatterns = {{
 TEST(Picture, AnEdgeCoversTheExpectedShareOfSamples) {
   for (const auto& pattern : kPatterns) {
     const int samples = int(pattern.size());
-    for (int f = 1; f < 32; f += 2) {  // between the samples' sixteenths
+    for (int f = 1; f < 32; f += 2) {                              // between the samples' sixteenths
       const float edge = (8.0f + float(f) / 32.0f) / 8.0f - 1.0f;  // pixel 8 of 16
       int left = 0, above = 0;
       for (const glm::ivec2& s : pattern) left += 2 * s.x < f, above += 2 * s.y < f;
-      const Film by_x = Render(OneRectangle(glm::vec4(1.0f), -3, -3, edge, 3), Settings(16, 16, samples, Orthographic(1.0)));
-      const Film by_y = Render(OneRectangle(glm::vec4(1.0f), -3, -edge, 3, 3), Settings(16, 16, samples, Orthographic(1.0)));
+      const Film by_x =
+          Render(OneRectangle(glm::vec4(1.0f), -3, -3, edge, 3), Settings(16, 16, samples, Orthographic(1.0)));
+      const Film by_y =
+          Render(OneRectangle(glm::vec4(1.0f), -3, -edge, 3, 3), Settings(16, 16, samples, Orthographic(1.0)));
       for (int i = 0; i < 16; ++i) {
         EXPECT_EQ(by_x.pixels[std::size_t(i * 16 + 8)].a, float(left) / float(samples)) << samples << " " << f;
         EXPECT_EQ(by_y.pixels[std::size_t(8 * 16 + i)].a, float(above) / float(samples)) << samples << " " << f;
@@ -157,7 +159,8 @@ TEST(Picture, TheNearerSurfaceShows) {
 }
 
 TEST(Picture, AnEmptySceneIsEmpty) {
-  for (const CameraChoice& camera : {CameraChoice(AutoCamera()), CameraChoice(OrbitCamera()), CameraChoice(Orthographic(1))}) {
+  for (const CameraChoice& camera :
+       {CameraChoice(AutoCamera()), CameraChoice(OrbitCamera()), CameraChoice(Orthographic(1))}) {
     RenderStats stats;
     const Film film = Render(Scene(), Settings(33, 17, 4, camera), &stats);
     ASSERT_EQ(film.pixels.size(), 33u * 17u);
@@ -244,7 +247,8 @@ TEST(Picture, DirectionalLightOnARoughSurface) {
       // Linear in the light, to the last bit for a power of two.
       ASSERT_EQ(twice.pixels[i], glm::vec4(glm::vec3(film.pixels[i]) * 2.0f, 1.0f));
       // The specular part is the same in all channels; the rest is proportional to the base colour.
-      const double slope_rg = (film.pixels[i].r - film.pixels[i].g) / 0.4, slope_gb = (film.pixels[i].g - film.pixels[i].b) / 0.2;
+      const double slope_rg = (film.pixels[i].r - film.pixels[i].g) / 0.4,
+                   slope_gb = (film.pixels[i].g - film.pixels[i].b) / 0.2;
       ASSERT_NEAR(slope_rg / slope_gb, 1.0, 1e-4);
     }
   }
@@ -262,7 +266,8 @@ TEST(Picture, AnEnvironmentBehindThePicture) {
     for (int x = 0; x < 16; ++x) {
       const bool inside = x >= 4 && x < 12 && y >= 4 && y < 12;
       const glm::vec4 expected = inside ? glm::vec4(0.25f, 0.5f, 0.75f, 1.0f) : glm::vec4(1.5f, 1.5f, 1.5f, 1.0f);
-      for (int c = 0; c < 4; ++c) ASSERT_NEAR(film.pixels[std::size_t(y * 16 + x)][c], expected[c], 1e-5) << x << " " << y;
+      for (int c = 0; c < 4; ++c)
+        ASSERT_NEAR(film.pixels[std::size_t(y * 16 + x)][c], expected[c], 1e-5) << x << " " << y;
     }
   }
 }

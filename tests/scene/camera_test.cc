@@ -164,8 +164,104 @@ TEST(Camera, RefusesNumbersOutOfRange) {
   EXPECT_EQ(CodeOf(free), ErrorCode::InvalidUsage);
   free.lens.znear = 0.1;
   EXPECT_EQ(*ResolveCamera(free, {}, {}, 20, 10).lens.aspect, 2.0);
-  free.lens.aspect = 1.5;
-  EXPECT_EQ(*ResolveCamera(free, {}, {}, 20, 10).lens.aspect, 1.5);
+  free.lens.aspect = -1.5;
+  EXPECT_EQ(CodeOf(free), ErrorCode::InvalidUsage);
+  free.lens.orthographic = true;
+  free.lens.xmag = 0.0;
+  EXPECT_EQ(CodeOf(free), ErrorCode::InvalidUsage);
+}
+
+// A scene with one camera of this lens, chosen both ways.
+std::vector<Camera> Fitted(const Camera& lens, int width, int height) {
+  Scene scene;
+  scene.cameras.push_back(lens);
+  scene.nodes.resize(1);
+  scene.nodes[0].camera = 0;
+  FreeCamera free;
+  free.lens = lens;
+  return {ResolveCamera(SceneCamera{0}, scene, Pose(scene, {}), width, height).lens,
+          ResolveCamera(free, {}, {}, width, height).lens};
+}
+
+TEST(Camera, PerspectiveLensesAreNeverCropped) {
+  Camera lens;
+  lens.yfov = 0.8;
+  lens.aspect = 1.5;
+  const double tan_y = std::tan(0.4);
+  for (const Camera& wide : Fitted(lens, 300, 100)) {
+    EXPECT_EQ(wide.yfov, 0.8) << "more to the sides";
+    EXPECT_EQ(*wide.aspect, 3.0);
+  }
+  for (const Camera& same : Fitted(lens, 150, 100)) EXPECT_EQ(same.yfov, 0.8);
+  for (const int width : {1, 20, 100, 149}) {
+    for (const Camera& narrow : Fitted(lens, width, 100)) {
+      const double aspect = width / 100.0;
+      EXPECT_EQ(*narrow.aspect, aspect);
+      EXPECT_NEAR(std::tan(narrow.yfov / 2) * aspect / (tan_y * 1.5), 1.0, 1e-13) << "the horizontal field is kept";
+      EXPECT_GT(narrow.yfov, 0.8);
+      EXPECT_LT(narrow.yfov, kTestPi);
+    }
+  }
+  lens.aspect.reset();
+  for (const Camera& any : Fitted(lens, 20, 100)) EXPECT_EQ(any.yfov, 0.8) << "it has the shape of the picture";
+}
+
+TEST(Camera, OrthographicLensesAreNeverCropped) {
+  Camera lens;
+  lens.orthographic = true;
+  lens.zfar = 10.0;
+  for (const double sign_x : {1.0, -1.0}) {
+    for (const double sign_y : {1.0, -1.0}) {
+      lens.xmag = 3.0 * sign_x;
+      lens.ymag = 2.0 * sign_y;
+      for (const Camera& wide : Fitted(lens, 300, 100)) {
+        EXPECT_EQ(wide.ymag, 2.0);
+        EXPECT_EQ(wide.xmag, 6.0);
+      }
+      for (const Camera& same : Fitted(lens, 150, 100)) {
+        EXPECT_EQ(same.ymag, 2.0);
+        EXPECT_EQ(same.xmag, 3.0);
+      }
+      for (const Camera& narrow : Fitted(lens, 50, 100)) {
+        EXPECT_EQ(narrow.xmag, 3.0);
+        EXPECT_EQ(narrow.ymag, 6.0);
+      }
+    }
+  }
+}
+
+TEST(Camera, FreeCamerasMustBeRigid) {
+  const glm::dmat4 turn =
+      glm::dmat4(glm::mat3_cast(RotationAbout(glm::normalize(glm::dvec3(1, 2, 3)), 1.2)));
+  const auto with = [&](int column, int row, double change) {
+    FreeCamera free;
+    free.world_from_camera = turn;
+    free.world_from_camera[3] = {1e6, -2, 3, 1};
+    free.world_from_camera[column][row] += change;
+    return free;
+  };
+  const FreeCamera rigid = with(0, 0, 0.0);
+  EXPECT_EQ(ResolveCamera(rigid, {}, {}, 10, 10).world_from_camera, rigid.world_from_camera);
+  // What was rounded to float is still rigid.
+  FreeCamera rounded = rigid;
+  rounded.world_from_camera = glm::dmat4(glm::mat4(rigid.world_from_camera));
+  EXPECT_NO_THROW(ResolveCamera(rounded, {}, {}, 10, 10));
+  for (int column = 0; column < 4; ++column) {
+    EXPECT_EQ(CodeOf(with(column, 3, 0.5)), ErrorCode::InvalidUsage) << "projective";
+    for (int row = 0; row < 4; ++row) {
+      EXPECT_EQ(CodeOf(with(column, row, std::nan(""))), ErrorCode::InvalidUsage) << column << row;
+      if (column < 3 && row < 3) {
+        EXPECT_EQ(CodeOf(with(column, row, 1e-3)), ErrorCode::InvalidUsage) << column << row;
+      }
+    }
+  }
+  FreeCamera scaled = rigid, mirrored = rigid, zero = rigid;
+  for (int c = 0; c < 3; ++c) scaled.world_from_camera[c] *= 2.0;
+  EXPECT_EQ(CodeOf(scaled), ErrorCode::InvalidUsage);
+  mirrored.world_from_camera[0] *= -1.0;
+  EXPECT_EQ(CodeOf(mirrored), ErrorCode::InvalidUsage);
+  zero.world_from_camera = glm::dmat4(0.0);
+  EXPECT_EQ(CodeOf(zero), ErrorCode::InvalidUsage);
 }
 
 }  // namespace

@@ -69,9 +69,7 @@ TEST(Morph, FlatNormalsForNormalMapsFollowTheMorphedSurface) {
   primitive.targets[0].normals.clear();
   primitive.targets[0].tangents.clear();
   primitive.material = 0;
-  scene.textures.resize(1);
-  scene.materials.resize(1);
-  scene.materials[0].normal_texture.texture = 0;
+  AddNormalMap(scene);
   scene.nodes[0].weights = {1, 0};
   const PosedScene posed = Pose(scene, {});
   // (0,0,1) (1,0,2) (0,1,4): edges (1,0,1), (0,1,3); normal (-1,-3,1)
@@ -250,9 +248,7 @@ Scene LargeScene() {
   Scene scene = BentBar(1.0);
   scene.meshes[0].primitives = {grid, grid, grid};
   scene.nodes[0].weights = {0.37f};
-  scene.textures.resize(1);
-  scene.materials.resize(1);
-  scene.materials[0].normal_texture.texture = 0;
+  AddNormalMap(scene);
   return scene;
 }
 

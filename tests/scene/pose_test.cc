@@ -184,6 +184,32 @@ TEST(Pose, MirrorsAndZeroScalesStayFinite) {
   EXPECT_EQ(bounds.high, posed.bounds.high);
 }
 
+// Tangents cost time and split vertices: they are made only where shading reads them.
+TEST(Pose, MakesNoTangentsThatNobodyReads) {
+  Primitive square;
+  square.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  square.tex_coords = {{{0, 1}, {1, 1}, {1, 0}, {0, 0}}};
+  square.material = 0;
+  for (const Topology topology : {Topology::Points, Topology::Lines, Topology::LineLoop, Topology::LineStrip,
+                                  Topology::Triangles, Topology::TriangleStrip, Topology::TriangleFan}) {
+    square.topology = topology;
+    square.indices = topology == Topology::Triangles ? std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3}
+                                                     : std::vector<std::uint32_t>{};
+    Scene scene = SceneOf(square);
+    AddNormalMap(scene);
+    const auto is_completed = [](const Scene& s) {
+      const Primitive* geometry = Pose(s, {}).drawables[0].geometry;
+      return geometry != &s.meshes[0].primitives[0];
+    };
+    EXPECT_EQ(is_completed(scene), topology >= Topology::Triangles);
+    scene.materials[0].unlit = true;
+    EXPECT_FALSE(is_completed(scene)) << "unlit";
+    scene.materials[0].unlit = false;
+    scene.textures[0].image = -1;
+    EXPECT_FALSE(is_completed(scene)) << "a texture without image";
+  }
+}
+
 TEST(Pose, CompletesWhatNormalMapsNeed) {
   Primitive strip;
   strip.topology = Topology::TriangleStrip;
@@ -192,9 +218,7 @@ TEST(Pose, CompletesWhatNormalMapsNeed) {
   strip.tangents.assign(4, {0, 0, 1, 1});  // of no use without normals
   strip.material = 0;
   Scene scene = SceneOf(strip);
-  scene.textures.resize(1);
-  scene.materials.resize(1);
-  scene.materials[0].normal_texture.texture = 0;
+  AddNormalMap(scene);
   scene.nodes.push_back(scene.nodes[0]);
   const PosedScene posed = Pose(scene, {});
   ASSERT_EQ(posed.drawables.size(), 2u);

@@ -3,7 +3,9 @@
 
 #include <cmath>
 #include <glm/glm.hpp>
+#include <memory>
 
+#include "facet/error.h"
 #include "facet/scene.h"
 #include "scene/pose.h"
 
@@ -15,6 +17,21 @@ inline Primitive Triangle() {
   Primitive primitive;
   primitive.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   return primitive;
+}
+
+class NoSource : public ImageSource {
+ public:
+  Image Decode() const override { throw Error(ErrorCode::NotFound, "posing decodes nothing"); }
+  std::string Name() const override { return "normal map"; }
+};
+
+// Makes the one material of `scene`, with a normal map.
+inline void AddNormalMap(Scene& scene) {
+  scene.images.push_back({"normal map", std::make_shared<NoSource>()});
+  scene.textures.resize(1);
+  scene.textures[0].image = 0;
+  scene.materials.resize(1);
+  scene.materials[0].normal_texture.texture = 0;
 }
 
 // One mesh of one primitive, held by one node.

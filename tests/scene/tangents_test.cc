@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
+#include <tuple>
 
 #include "scene_helpers.h"
 
@@ -166,6 +168,69 @@ TEST(Tangents, WithoutUvsArePerpendicularToTheNormal) {
     EXPECT_NEAR(glm::length(t), 1.0, 1e-6);
     EXPECT_NEAR(glm::dot(t, glm::dvec3(primitive.normals[i])), 0.0, 1e-6);
   }
+}
+
+// As many tangents around one vertex as triangles: what is quadratic in them would take minutes.
+TEST(Tangents, AVertexOfManyTriangles) {
+  constexpr std::uint32_t kTriangles = 200000;
+  std::mt19937 random(5);
+  std::uniform_real_distribution<float> uniform(-1.0f, 1.0f);
+  Primitive star;
+  star.tex_coords.resize(1);
+  const auto add = [&](const glm::vec3& p) {
+    star.positions.push_back(p);
+    star.normals.push_back({0, 0, 1});
+    star.tex_coords[0].push_back({uniform(random), uniform(random)});
+  };
+  add({0, 0, 0});
+  for (std::uint32_t t = 0; t < kTriangles; ++t) {
+    const double angle = 2 * kTestPi * t / kTriangles;
+    add({float(std::cos(angle)), float(std::sin(angle)), 0});
+    add({float(std::cos(angle + 1e-3)), float(std::sin(angle + 1e-3)), 0});
+    star.indices.insert(star.indices.end(), {0, 2 * t + 1, 2 * t + 2});
+  }
+  const Primitive before = star;
+  MakeTangents(0, star);
+  ASSERT_EQ(star.indices.size(), before.indices.size());
+  EXPECT_GT(star.positions.size(), before.positions.size() + kTriangles / 2) << "the middle is split";
+  // No two copies of the middle are alike, and each triangle's three corners have the one tangent that it asks for.
+  std::vector<glm::vec4> middle(star.tangents.begin() + std::ptrdiff_t(before.positions.size()), star.tangents.end());
+  middle.push_back(star.tangents[0]);
+  const auto less = [](const glm::vec4& a, const glm::vec4& b) {
+    return std::tie(a.x, a.y, a.z, a.w) < std::tie(b.x, b.y, b.z, b.w);
+  };
+  std::sort(middle.begin(), middle.end(), less);
+  EXPECT_EQ(std::adjacent_find(middle.begin(), middle.end()), middle.end());
+  for (std::size_t c = 0; c < star.indices.size(); c += 3) {
+    ASSERT_EQ(star.positions[star.indices[c]], glm::vec3(0));
+    ASSERT_EQ(star.tangents[star.indices[c]], star.tangents[star.indices[c + 1]]) << c;
+  }
+}
+
+// Copies come in the order of the corners that ask for them, and each is made once.
+TEST(Tangents, CornersThatAgreeShareACopy) {
+  Primitive fans;  // four separate triangles at the origin: u along +x, +y, +x, +y
+  fans.tex_coords.resize(1);
+  fans.positions = {{0, 0, 0}};
+  fans.tex_coords[0] = {{0, 0}};
+  for (std::uint32_t t = 0; t < 4; ++t) {
+    const float x = t < 2 ? 1.0f : -1.0f, y = t == 0 || t == 3 ? 1.0f : -1.0f;
+    const bool turned = t % 2 == 1;
+    const bool forward = x * y > 0;  // counter-clockwise
+    for (const bool along_x : {forward, !forward}) {  // a quadrant's triangle that touches none of the others
+      const glm::vec3 q = along_x ? glm::vec3(x, 0.005f * y, 0) : glm::vec3(0.005f * x, y, 0);
+      fans.positions.push_back(q);
+      fans.tex_coords[0].push_back(turned ? glm::vec2(q.y, q.x) : glm::vec2(q.x, -q.y));
+    }
+    fans.indices.insert(fans.indices.end(), {0, 2 * t + 1, 2 * t + 2});
+  }
+  fans.normals.assign(9, {0, 0, 1});
+  MakeTangents(0, fans);
+  ASSERT_EQ(fans.positions.size(), 10u);
+  const std::uint32_t expected[4] = {0, 9, 0, 9};
+  for (std::size_t t = 0; t < 4; ++t) EXPECT_EQ(fans.indices[3 * t], expected[t]) << t;
+  EXPECT_LT(Distance(glm::dvec3(fans.tangents[0]), {1, 0, 0}), 1e-6);
+  EXPECT_LT(Distance(glm::dvec3(fans.tangents[9]), {0, 1, 0}), 1e-6);
 }
 
 TEST(Tangents, AreUnitAndFiniteWhateverTheInput) {
