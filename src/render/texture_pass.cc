@@ -36,7 +36,10 @@ FrameTextures DecodeTextures(const Scene& scene, const std::vector<bool>& materi
           textures[t] = std::make_unique<const TextureData>(BuildTexture(image, planned.role, planned.mips));
         }
       } catch (const Error& error) {
-        if (error.code() != ErrorCode::InvalidInput && error.code() != ErrorCode::NotFound) throw;
+        if (error.code() != ErrorCode::InvalidInput && error.code() != ErrorCode::NotFound) {
+          failures[i] = std::current_exception();
+          continue;
+        }
         const std::string name = scene.images[std::size_t(images[i])].source->Name();
         problems[i] = error.where().empty() ? name + ": " + error.what() : error.what();
       }

@@ -20,7 +20,7 @@ struct Rgba {
 class TexelReader {
  public:
   TexelReader(const Image& image, TextureRole role) : image_(image) {
-    const bool srgb = role == TextureRole::Color && image.type != ChannelType::F32;
+    const bool srgb = role == TextureRole::Color && image.encoding == Encoding::Srgb && image.type != ChannelType::F32;
     if (image.type == ChannelType::U8) {
       for (int i = 0; i < 256; ++i) color8_[i] = srgb ? SrgbToLinear(static_cast<float>(i) / 255.0f) : static_cast<float>(i) / 255.0f;
     } else if (image.type == ChannelType::U16 && srgb) {

@@ -65,7 +65,9 @@ void ExpectPromises(const Scene& scene, const PosedScene& posed) {
     for (const glm::vec3& n : geometry.normals) ASSERT_TRUE(IsFinite(n));
     for (const glm::vec4& t : geometry.tangents) ASSERT_EQ(std::fabs(t.w), 1.0f);
     const bool triangles = ClassOf(geometry.topology) == PrimitiveClass::Triangles;
-    if (triangles && drawable.material >= 0 && scene.materials[std::size_t(drawable.material)].normal_texture) {
+    const Material material = drawable.material < 0 ? Material() : scene.materials[std::size_t(drawable.material)];
+    const int normal_map = material.normal_texture.texture;
+    if (triangles && !material.unlit && normal_map >= 0 && scene.textures[std::size_t(normal_map)].image >= 0) {
       EXPECT_EQ(geometry.normals.size(), count);
       EXPECT_EQ(geometry.tangents.size(), count);
     }

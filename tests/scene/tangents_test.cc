@@ -170,9 +170,9 @@ TEST(Tangents, WithoutUvsArePerpendicularToTheNormal) {
   }
 }
 
-// As many tangents around one vertex as triangles: what is quadratic in them would take minutes.
+// As many tangents around one vertex as triangles: what is quadratic in them outlasts the time limit of a test.
 TEST(Tangents, AVertexOfManyTriangles) {
-  constexpr std::uint32_t kTriangles = 200000;
+  constexpr std::uint32_t kTriangles = 800000;
   std::mt19937 random(5);
   std::uniform_real_distribution<float> uniform(-1.0f, 1.0f);
   Primitive star;
@@ -192,7 +192,7 @@ TEST(Tangents, AVertexOfManyTriangles) {
   const Primitive before = star;
   MakeTangents(0, star);
   ASSERT_EQ(star.indices.size(), before.indices.size());
-  EXPECT_GT(star.positions.size(), before.positions.size() + kTriangles / 2) << "the middle is split";
+  EXPECT_GT(star.positions.size(), before.positions.size() + kTriangles / 4) << "the middle is split";
   // No two copies of the middle are alike, and each triangle's three corners have the one tangent that it asks for.
   std::vector<glm::vec4> middle(star.tangents.begin() + std::ptrdiff_t(before.positions.size()), star.tangents.end());
   middle.push_back(star.tangents[0]);
