@@ -43,11 +43,12 @@ void RunWithThreads(int threads, const std::function<void()>& body) {
 int CurrentThreadCount() { return tbb::this_task_arena::max_concurrency(); }
 
 void ParallelFor(std::size_t count, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& body) {
-  const std::size_t pieces = (count + grain - 1) / grain;
+  const std::size_t pieces = count / grain + (count % grain != 0);
   if (pieces == 0) return;
   const auto run = [&](std::size_t piece) {
     const FloatEnvironment pinned;
-    body(piece * grain, std::min(count, (piece + 1) * grain));
+    const std::size_t begin = piece * grain;
+    body(begin, begin + std::min(grain, count - begin));
   };
   if (pieces == 1) return run(0);
   [[maybe_unused]] char started = 0, ended = 0;

@@ -1,3 +1,4 @@
+#include "base/parallel.h"
 #include "cli/render_command.h"
 
 #include <chrono>
@@ -112,9 +113,7 @@ Film RenderWithProgress(const Scene& scene, const RenderOptions& options, Render
   return Render(scene, settings, &stats);
 }
 
-}  // namespace
-
-void RunRender(RenderOptions options) {
+void RenderToFile(RenderOptions& options) {
   Stopwatch total, stage;
   Reconcile(options);
   RenderSettings& settings = options.settings;
@@ -148,6 +147,13 @@ void RunRender(RenderOptions options) {
   stats.write_seconds = stage.Lap();
   stats.total_seconds = total.Lap();
   PrintStats(options, stats);
+}
+
+}  // namespace
+
+// --threads bounds loading, developing and writing too.
+void RunRender(RenderOptions options) {
+  RunWithThreads(options.settings.threads, [&] { RenderToFile(options); });
 }
 
 }  // namespace facet::cli

@@ -100,8 +100,13 @@ HWY_INLINE Float Max(Float a, Float b) { return Select(a > b, a, b); }
 HWY_INLINE Float Clamp(Float x, Float low, Float high) { return Min(Max(x, low), high); }
 HWY_INLINE Float Abs(Float a) { return hn::Abs(a.raw); }
 HWY_INLINE Float Sqrt(Float a) { return hn::Sqrt(a.raw); }
+#if HWY_TARGET == HWY_SCALAR  // Highway's loses the sign of a zero result
+HWY_INLINE Float Floor(Float a) { return hn::CopySign(hn::Floor(a.raw), a.raw); }
+HWY_INLINE Float RoundEven(Float a) { return hn::CopySign(hn::Round(a.raw), a.raw); }  // ties to even
+#else
 HWY_INLINE Float Floor(Float a) { return hn::Floor(a.raw); }
 HWY_INLINE Float RoundEven(Float a) { return hn::Round(a.raw); }  // ties to even
+#endif
 HWY_INLINE Float CopySign(Float magnitude, Float sign) { return hn::CopySign(magnitude.raw, sign.raw); }
 
 // --- Int ----------------------------------------------------------------------------------------------------------------
