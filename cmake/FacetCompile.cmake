@@ -14,7 +14,7 @@ endif()
 set(FACET_HIGHWAY_DEFINITIONS
   HWY_COMPILE_ALL_ATTAINABLE                     # the scalar target too, everywhere
   HWY_BROKEN_EMU128=1                            # scalar code means one lane, with every compiler
-  HWY_DISABLED_TARGETS=HWY_SSSE3|HWY_SVE|HWY_SVE2|HWY_SVE_256|HWY_SVE2_128)
+  HWY_DISABLED_TARGETS=HWY_SSSE3|HWY_SVE|HWY_SVE2|HWY_SVE_256|HWY_SVE2_128${FACET_DISABLED_TARGETS})
 
 add_library(facet_arithmetic INTERFACE)
 add_library(facet::arithmetic ALIAS facet_arithmetic)

@@ -11,7 +11,7 @@ packages=(cmake ninja-build g++ pkg-config
   libtinygltf-dev nlohmann-json3-dev libdraco-dev libmeshoptimizer-dev
   libpng-dev libjpeg-dev libopenimageio-dev libimath-dev # pictures
   libcli11-dev)
-extras=(clang libgtest-dev libbenchmark-dev python3 python3-numpy python3-pil)
+extras=(clang libclang-rt-dev libgtest-dev libbenchmark-dev python3 python3-numpy python3-pil)
 
 case "${1:-}" in
   "") packages+=("${extras[@]}") ;;

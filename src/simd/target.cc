@@ -4,6 +4,7 @@
 
 #include "facet/error.h"
 #include "facet/shader/dispatch.h"
+#include "hwy/detect_targets.h"
 
 namespace facet {
 namespace {
@@ -56,10 +57,10 @@ bool TargetIsAvailable(Target target) {
   const bool avx3 = avx2 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
                     __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") &&
                     __builtin_cpu_supports("avx512cd");
-  switch (target) {
-    case Target::Sse4: return sse4;
-    case Target::Avx2: return avx2;
-    case Target::Avx3: return avx3;
+  switch (target) {  // what the processor has, of what the build has
+    case Target::Sse4: return sse4 && (HWY_TARGETS & HWY_SSE4) != 0;
+    case Target::Avx2: return avx2 && (HWY_TARGETS & HWY_AVX2) != 0;
+    case Target::Avx3: return avx3 && (HWY_TARGETS & HWY_AVX3) != 0;
     default: return false;
   }
 #elif defined(__aarch64__)
