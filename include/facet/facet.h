@@ -1,10 +1,14 @@
 // Everything a user of the library includes.
 #pragma once
 
+#include "facet/compare.h"
+#include "facet/check.h"
+#include "facet/digest.h"
 #include "facet/error.h"
 #include "facet/film.h"
 #include "facet/image.h"
 #include "facet/load.h"
 #include "facet/render.h"
 #include "facet/scene.h"
+#include "facet/verify.h"
 #include "facet/version.h"

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <cstring>
 
+#include "base/printable.h"
 #include "facet/error.h"
 
 namespace facet::cli {
@@ -17,30 +18,6 @@ void PrintLine(std::string_view prefix, std::string_view text) {
 }
 
 }  // namespace
-
-std::string Printable(std::string_view text) {
-  static constexpr char kHex[] = "0123456789abcdef";
-  std::string out;
-  out.reserve(text.size());
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte >= 0x20 && byte != 0x7f) {
-      out += c;
-    } else {
-      out += "\\x";
-      out += kHex[byte >> 4];
-      out += kHex[byte & 15];
-    }
-  }
-  return out;
-}
-
-std::string Quoted(std::string_view text) {
-  std::string quoted(1, '\'');
-  quoted += Printable(text);
-  quoted += '\'';
-  return quoted;
-}
 
 void PrintError(std::string_view text) { PrintLine("facet: ", text); }
 

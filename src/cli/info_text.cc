@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <numbers>
 
-#include "cli/console.h"
+#include "base/printable.h"
 #include "cli/info_summary.h"
 
 namespace facet::cli {

@@ -1,40 +1,66 @@
 // The facet program: parse, options, call.
 #include <exception>
+#include <functional>
 #include <new>
 #include <string>
 #include <variant>
 
 #include "cli/console.h"
+#include "cli/diff_command.h"
+#include "cli/hash_command.h"
 #include "cli/info_command.h"
 #include "cli/options.h"
 #include "cli/render_command.h"
+#include "cli/verify_command.h"
 #include "facet/error.h"
 
 namespace {
 
-using facet::ErrorCode;
-using facet::ExitCode;
+using namespace facet;
+using namespace facet::cli;
+
+// `command`'s exit code, or that of the error that ended it, after one line that says what was wrong.
+int Guarded(const std::function<int()>& command) {
+  try {
+    return command();
+  } catch (const Error& error) {
+    PrintError(error.what());
+    return ExitCode(error.code());
+  } catch (const std::bad_alloc&) {
+    PrintError("out of memory; a smaller --size or fewer --threads need less");
+    return ExitCode(ErrorCode::OutOfMemory);
+  } catch (const std::exception& error) {
+    PrintError(std::string("a defect of facet: ") + error.what());
+    return ExitCode(ErrorCode::Internal);
+  }
+}
+
+// Commands that compare say equal or not by 0 and 1: every error is 2.
+int Compared(const std::function<int()>& command) {
+  bool finished = false;
+  const int code = Guarded([&] {
+    const int verdict = command();
+    finished = true;
+    return verdict;
+  });
+  return finished ? code : 2;
+}
 
 struct Run {
-  void operator()(const facet::cli::TextRequest& request) const { facet::cli::PrintOutput(request.text); }
-  void operator()(const facet::cli::RenderOptions& options) const { facet::cli::RunRender(options); }
-  void operator()(const facet::cli::InfoOptions& options) const { facet::cli::RunInfo(options); }
+  int operator()(const TextRequest& request) const { return PrintOutput(request.text), 0; }
+  int operator()(const RenderOptions& options) const { return RunRender(options), 0; }
+  int operator()(const InfoOptions& options) const { return RunInfo(options), 0; }
+  int operator()(const HashOptions& options) const { return RunHash(options), 0; }
+  int operator()(const VerifyOptions& options) const {
+    return Compared([&] { return RunVerify(options); });
+  }
+  int operator()(const DiffOptions& options) const {
+    return Compared([&] { return RunDiff(options); });
+  }
 };
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    std::visit(Run{}, facet::cli::ParseCommandLine(argc, argv));
-    return 0;
-  } catch (const facet::Error& error) {
-    facet::cli::PrintError(error.what());
-    return ExitCode(error.code());
-  } catch (const std::bad_alloc&) {
-    facet::cli::PrintError("out of memory; a smaller --size or fewer --threads need less");
-    return ExitCode(ErrorCode::OutOfMemory);
-  } catch (const std::exception& error) {
-    facet::cli::PrintError(std::string("a defect of facet: ") + error.what());
-    return ExitCode(ErrorCode::Internal);
-  }
+  return Guarded([&] { return std::visit(Run{}, ParseCommandLine(argc, argv)); });
 }

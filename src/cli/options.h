@@ -6,24 +6,17 @@
 #include <string>
 #include <variant>
 
-#include "facet/film.h"
+#include "cli/diff_command.h"
 #include "facet/load.h"
-#include "facet/render.h"
+#include "report/render_request.h"
 
 namespace facet::cli {
 
-// `facet render`. What can only be resolved with the file at hand (names of cameras and the like) stays text.
+// `facet render`.
 struct RenderOptions {
   std::filesystem::path input, output;
-  RenderSettings settings;
-  DisplaySettings display;
+  RenderRequest request;
   LoadOptions load;
-  ChannelType type = ChannelType::U8;  // the file's; F32 follows from the output's extension
-  std::optional<std::string> scene, camera, animation, variant;
-  bool time_given = false;
-  bool background_given = false;
-  bool tone_map_given = false;
-  std::optional<std::filesystem::path> environment;  // a picture; else settings.environment.kind says which
   bool quiet = false;
   std::optional<bool> progress;  // none: when standard error is a terminal
   bool stats_table = false;
@@ -36,12 +29,28 @@ struct InfoOptions {
   bool json = false;
 };
 
+// `facet hash`.
+struct HashOptions {
+  std::filesystem::path input;
+  RenderRequest request;
+  LoadOptions load;
+  bool json = false;
+};
+
+// `facet verify`.
+struct VerifyOptions {
+  std::filesystem::path picture, input;
+  std::optional<std::filesystem::path> environment;  // instead of the file beside the scene
+  int threads = 0;
+  bool json = false;
+};
+
 // --help and --version: a text for standard output.
 struct TextRequest {
   std::string text;
 };
 
-using Command = std::variant<TextRequest, RenderOptions, InfoOptions>;
+using Command = std::variant<TextRequest, RenderOptions, InfoOptions, HashOptions, VerifyOptions, DiffOptions>;
 
 // Throws Error(InvalidUsage).
 Command ParseCommandLine(int argc, const char* const* argv);

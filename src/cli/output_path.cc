@@ -8,7 +8,7 @@
 #include <string>
 #include <system_error>
 
-#include "cli/console.h"
+#include "base/printable.h"
 #include "facet/error.h"
 
 namespace facet::cli {

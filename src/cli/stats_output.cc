@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "cli/console.h"
+#include "base/printable.h"
 #include "facet/version.h"
 
 namespace facet::cli {

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -31,6 +32,10 @@ Image DecodeImage(std::span<const std::byte> bytes, const std::string& name);
 // keyword and value pairs in UTF-8: tEXt where ASCII suffices, iTXt otherwise. The bytes are a function of the
 // arguments (and of the version of zlib). Throws Error: InvalidUsage (F32, a wrong byte count, or a bad keyword).
 std::vector<std::byte> EncodePng(const Image& image, const std::vector<std::array<std::string, 2>>& text = {});
+
+// The text chunks before the pixels of a PNG file, keyword to value in UTF-8; of equal keywords the first counts. `name` is
+// what messages call the picture. Throws Error(InvalidInput).
+std::map<std::string, std::string> ReadPngText(std::span<const std::byte> bytes, const std::string& name);
 
 // Calls write(temporary path in the same folder), then gives that file the name `path`: it appears whole or not at
 // all, and an existing file stays as it was when anything fails. Throws what `write` throws, or Error(OutputFailed).

@@ -1,6 +1,10 @@
 #include "facet/image.h"
 
+#include <span>
 #include <utility>
+
+#include "base/sha256.h"
+#include "facet/digest.h"
 
 namespace facet {
 namespace {
@@ -24,6 +28,14 @@ class MemoryImage final : public ImageSource {
 
 std::shared_ptr<const ImageSource> MakeImageSource(Image image, std::string name) {
   return std::make_shared<MemoryImage>(std::move(image), std::move(name));
+}
+
+Digest HashImage(const Image& image) {
+  Sha256 hash;
+  hash.Add("facet image " + std::to_string(image.width) + " " + std::to_string(image.height) + " " +
+           std::to_string(image.channels) + " " + std::to_string(8 * SizeOf(image.type)) + "\n");
+  hash.Add(std::span(image.bytes));
+  return hash.Finish();
 }
 
 }  // namespace facet

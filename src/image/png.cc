@@ -9,6 +9,8 @@
 #include <csetjmp>
 #include <cstdio>
 #include <cstring>
+#include <map>
+#include <string>
 #include <vector>
 
 #include "facet/error.h"
@@ -73,6 +75,15 @@ bool ReadRows(png_structp png, png_bytepp rows) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
   png_read_image(png, rows);
   png_read_end(png, nullptr);
+  return true;
+}
+
+// All chunks before the pixels.
+bool ReadInfo(png_structp png, png_infop info) {
+  if (setjmp(png_jmpbuf(png)) != 0) return false;
+  png_set_user_limits(png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
+  png_set_crc_action(png, PNG_CRC_ERROR_QUIT, PNG_CRC_ERROR_QUIT);
+  png_read_info(png, info);
   return true;
 }
 
@@ -200,6 +211,21 @@ Image DecodePng(std::span<const std::byte> bytes, const std::string& name) {
   }
   if (!ReadRows(reader.png, rows.data())) throw fail();
   return image;
+}
+
+std::map<std::string, std::string> ReadPngText(std::span<const std::byte> bytes, const std::string& name) {
+  if (!LooksLikePng(bytes)) throw Error(ErrorCode::InvalidInput, "is no PNG", name);
+  Reader reader;
+  Cursor cursor{bytes.data(), bytes.size()};
+  png_set_read_fn(reader.png, &cursor, ReadBytes);
+  if (!ReadInfo(reader.png, reader.info)) {
+    throw Error(ErrorCode::InvalidInput, std::string("broken PNG: ") + reader.complaint.text, name);
+  }
+  png_textp chunks = nullptr;
+  const int count = png_get_text(reader.png, reader.info, &chunks, nullptr);
+  std::map<std::string, std::string> text;
+  for (int i = 0; i < count; ++i) text.emplace(chunks[i].key, chunks[i].text);
+  return text;
 }
 
 std::vector<std::byte> EncodePng(const Image& image, const std::vector<std::array<std::string, 2>>& text) {

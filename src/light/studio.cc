@@ -120,8 +120,9 @@ Image StudioPicture(int width, int height) {
 }
 
 std::shared_ptr<const EnvironmentMap> StudioEnvironment(bool keep_picture) {
-  // Nothing in the room is sharper than a pixel of this.
-  const auto make = [](bool keep) { return PrefilterEnvironment(StudioPicture(512, 256), {keep, 256}); };
+  const auto make = [](bool keep) {
+    return PrefilterEnvironment(StudioPicture(kStudioWidth, kStudioHeight), {keep, 256});
+  };
   if (keep_picture) {
     static const std::shared_ptr<const EnvironmentMap> kept = make(true);
     return kept;

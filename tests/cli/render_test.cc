@@ -197,15 +197,17 @@ TEST_F(FacetRender, Samples) {
   EXPECT_LE(alphas("8").size(), 9u);
 }
 
-TEST_F(FacetRender, ThreadsNeverChangeTheFile) {
+TEST_F(FacetRender, ThreadsAndTilesNeverChangeTheFile) {
   Draw({"--orbit", "20,70", "--threads", "1", "--scene", "Lit"});
   const std::string one = ReadText(out_);
   for (const char* threads : {"2", "3", "0"}) {
     Draw({"--orbit", "20,70", "--threads", threads, "--scene", "Lit"});
     EXPECT_EQ(ReadText(out_), one) << threads << " threads";
   }
-  Draw({"--orbit", "20,70", "--scene", "Lit", "--max-anisotropy", "16"});
-  EXPECT_EQ(ReadText(out_), one) << "there is no texture to filter";
+  for (const char* tile : {"8", "16", "64"}) {
+    Draw({"--orbit", "20,70", "--tile-size", tile, "--scene", "Lit"});
+    EXPECT_EQ(ReadText(out_), one) << "tiles of " << tile;
+  }
 }
 
 TEST_F(FacetRender, StatsAsATable) {

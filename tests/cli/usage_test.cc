@@ -10,8 +10,14 @@ namespace facet::test {
 namespace {
 
 TEST(FacetHelp, IsOnStandardOutput) {
-  for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
-           {"--help"}, {"-h"}, {"render", "--help"}, {"render", "-h"}, {"info", "--help"}}) {
+  for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{{"--help"},
+                                                                                         {"-h"},
+                                                                                         {"render", "--help"},
+                                                                                         {"render", "-h"},
+                                                                                         {"info", "--help"},
+                                                                                         {"hash", "--help"},
+                                                                                         {"verify", "--help"},
+                                                                                         {"diff", "--help"}}) {
     const Outcome run = RunFacet(arguments);
     EXPECT_EQ(run.exit_code, 0);
     EXPECT_EQ(run.err, "");

@@ -1,7 +1,9 @@
 #include <png.h>
 
 #include <array>
+#include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "facet/film.h"
@@ -33,9 +35,20 @@ TEST(Png, BytesAreDeterministicAndCarryText) {
   EXPECT_NE(file.find(std::string("iTXtAuthor\0\0\0\0\0J\xC3\xBCrgen", 22)), std::string::npos);
   EXPECT_NE(file.find("sRGB"), std::string::npos);
   ExpectSame(DecodeImage(bytes, "picture"), image);
+  const std::map<std::string, std::string> read = ReadPngText(bytes, "picture");
+  EXPECT_EQ(read, (std::map<std::string, std::string>{{"Software", "facet"}, {"Author", "J\xC3\xBCrgen"}}));
   for (const char* key : {"", " a", "a ", "a  b", "a\nb"}) {
     EXPECT_EQ(CodeOf([&] { EncodePng(image, {{key, "value"}}); }), ErrorCode::InvalidUsage) << key;
   }
+}
+
+TEST(Png, TextOfBrokenFilesIsRefused) {
+  auto bytes = EncodePng(MakePattern(20, 20, 4, ChannelType::U8), {{"Software", "facet"}});
+  EXPECT_EQ(CodeOf([&] { ReadPngText(std::span(bytes).first(0), "picture"); }), ErrorCode::InvalidInput);
+  EXPECT_EQ(CodeOf([&] { ReadPngText(std::span(bytes).first(70), "picture"); }), ErrorCode::InvalidInput);
+  const std::string_view file(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  bytes[file.find("facet")] = std::byte('F');  // the checksum no longer fits
+  EXPECT_EQ(CodeOf([&] { ReadPngText(bytes, "picture"); }), ErrorCode::InvalidInput);
 }
 
 // Files that facet does not write, made by libpng itself.

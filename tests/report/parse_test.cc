@@ -1,10 +1,10 @@
-#include "cli/parse.h"
+#include "report/parse.h"
 
 #include <gtest/gtest.h>
 
 #include "facet/error.h"
 
-namespace facet::cli {
+namespace facet {
 namespace {
 
 template <class Call>
@@ -127,4 +127,4 @@ TEST(Choose, ShortensLongListsAndHidesControlCharacters) {
 }
 
 }  // namespace
-}  // namespace facet::cli
+}  // namespace facet

@@ -1,6 +1,6 @@
-// Text of the command line into values. Nothing here depends on the locale, and nothing is half accepted: trailing
-// characters, NaN and infinities are refused. Every function throws Error(InvalidUsage) naming `option`, the text and
-// what would have been accepted.
+// Text of the command line and of manifests into values. Nothing here depends on the locale, and nothing is half
+// accepted: trailing characters, NaN and infinities are refused. Every function throws Error(InvalidUsage) naming
+// `option`, the text and what would have been accepted.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-namespace facet::cli {
+namespace facet {
 
 // An inclusive range.
 struct Range {
@@ -57,4 +57,4 @@ int ParseChoice(std::string_view option, std::string_view text, const std::vecto
 int Choose(std::string_view option, std::string_view kind, const std::string& text,
            const std::vector<std::string>& names);
 
-}  // namespace facet::cli
+}  // namespace facet

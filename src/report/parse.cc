@@ -1,4 +1,4 @@
-#include "cli/parse.h"
+#include "report/parse.h"
 
 #include <algorithm>
 #include <array>
@@ -6,10 +6,10 @@
 #include <cmath>
 #include <cstdio>
 
-#include "cli/console.h"
+#include "base/printable.h"
 #include "facet/error.h"
 
-namespace facet::cli {
+namespace facet {
 namespace {
 
 [[noreturn]] void Refuse(std::string_view option, std::string_view text, const std::string& is_not,
@@ -207,4 +207,4 @@ int Choose(std::string_view option, std::string_view kind, const std::string& te
   return static_cast<int>(first - names.begin());
 }
 
-}  // namespace facet::cli
+}  // namespace facet

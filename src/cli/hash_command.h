@@ -1,0 +1,11 @@
+// `facet hash`: fingerprints.
+#pragma once
+
+#include "cli/options.h"
+
+namespace facet::cli {
+
+// Prints the digests of the film, the developed picture and each input. Throws Error.
+void RunHash(const HashOptions& options);
+
+}  // namespace facet::cli

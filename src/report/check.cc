@@ -1,0 +1,343 @@
+#include "facet/check.h"
+
+#include <algorithm>
+#include <chrono>
+#include <exception>
+#include <functional>
+#include <new>
+#include <regex>
+#include <span>
+#include <utility>
+
+#include "base/parallel.h"
+#include "base/printable.h"
+#include "facet/error.h"
+#include "facet/film.h"
+#include "facet/render.h"
+#include "facet/version.h"
+#include "image/codec.h"
+#include "report/manifest.h"
+#include "report/provenance.h"
+#include "report/short_number.h"
+
+namespace facet {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double SecondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+// What the loader complains of, as a place in the manifest.
+Error Placed(const Manifest& manifest, const ManifestEntry& entry, const Error& error) {
+  const std::string& where = error.where();
+  const std::string scene = (manifest.folder / entry.scene).string();
+  const auto at = [&](const std::string& pointer, const std::string& message) {
+    return Error(error.code(), message, PlaceIn(manifest, pointer), error.hint());
+  };
+  if (where.starts_with("--")) {
+    return at(SettingPointer(entry, where.substr(2, where.find(' ') - 2)), error.message());
+  }
+  const std::string message = where.empty() ? error.message() : where + ": " + error.message();
+  if (where.starts_with(scene)) return at(entry.pointer + "/scene", message);
+  if (entry.request.environment && where.starts_with((manifest.folder / *entry.request.environment).string())) {
+    return at(SettingPointer(entry, "environment"), message);
+  }
+  return at(entry.pointer, message);
+}
+
+// A golden picture, as a file and decoded.
+struct Golden {
+  std::vector<std::byte> file;
+  Image image;
+};
+
+Golden LoadGolden(const std::filesystem::path& path) {
+  Golden golden;
+  golden.file = ReadFileWhole(path);
+  golden.image = DecodeImage(golden.file, Printable(path.string()));
+  if (golden.image.type == ChannelType::F32) {
+    throw Error(ErrorCode::InvalidInput, "is no PNG", Printable(path.string()));
+  }
+  return golden;
+}
+
+std::string SizeText(int width, int height) { return std::to_string(width) + "x" + std::to_string(height); }
+
+std::string Short(const Digest& digest) { return ToHex(digest).substr(0, 12); }
+
+std::string Summary(const ImageDifference& d) {
+  if (d.equal) return "the picture is equal";
+  return "FLIP " + ShortNumber(d.flip_mean) + ", RMSE " + ShortNumber(d.rmse) + ", largest difference " +
+         ShortNumber(d.max_difference) + " at (" + std::to_string(d.max_x) + ", " + std::to_string(d.max_y) + "), " +
+         std::to_string(d.differing_pixels) + " of " + std::to_string(std::size_t(d.width) * std::size_t(d.height)) +
+         " pixels differ";
+}
+
+std::string Joined(const std::vector<std::string>& parts) {
+  std::string text;
+  for (const std::string& part : parts) text += (text.empty() ? "" : ", ") + part;
+  return text;
+}
+
+ExpectedInputs HashInputs(const RenderInputs& inputs) {
+  const SceneDigests scene = HashScene(inputs.loaded.scene);
+  return {scene.description, scene.geometry, scene.textures, HashEnvironment(inputs.settings.environment)};
+}
+
+// Whose difference it is: a decoder's or the renderer's.
+std::string Blame(const ExpectedInputs& expected, const ExpectedInputs& actual) {
+  std::vector<std::string> differ;
+  if (expected.description != actual.description) differ.push_back("description");
+  if (expected.geometry != actual.geometry) differ.push_back("geometry");
+  if (expected.textures != actual.textures) differ.push_back("textures");
+  if (expected.environment != actual.environment) differ.push_back("environment");
+  if (differ.empty()) return "the inputs are the same: the settings or the renderer differ";
+  return "the inputs differ: " + Joined(differ) + " (another file, or another version of its decoder?)";
+}
+
+// Runs one entry.
+class Check {
+ public:
+  Check(const Manifest& manifest, std::size_t index, const CheckOptions& options, int threads)
+      : manifest_(manifest),
+        entry_(manifest.entries[index]),
+        expect_(entry_.expect),
+        index_(index),
+        options_(options),
+        threads_(threads) {}
+
+  // The result, and what shall stand in the manifest from now on.
+  std::pair<CheckedEntry, std::optional<NewExpectation>> Run() {
+    const Clock::time_point start = Clock::now();
+    result_.name = entry_.name;
+    result_.place = PlaceIn(manifest_, entry_.pointer);
+    result_.expected_film = expect_.film;
+    try {
+      if (entry_.problem) throw Error(*entry_.problem);
+      Decide();
+    } catch (const Error& error) {
+      SetError(error.message() + (error.hint().empty() ? "" : "; " + error.hint()));
+      if (error.where().starts_with(manifest_.name)) result_.place = error.where();
+    } catch (const std::bad_alloc&) {
+      SetError("the machine has too little memory; fewer threads need less");
+    } catch (const std::exception& error) {
+      SetError(std::string("a defect of facet: ") + error.what());
+    }
+    result_.seconds = SecondsSince(start);
+    return {std::move(result_), std::move(update_)};
+  }
+
+ private:
+  void SetError(const std::string& message) {
+    result_.verdict = Verdict::Error;
+    result_.message = Printable(message);
+    update_.reset();
+  }
+
+  void Decide() {
+    const RenderInputs inputs = Load();
+    RenderSettings settings = inputs.settings;
+    settings.threads = threads_;
+    RenderStats stats;
+    Film film = Render(inputs.loaded.scene, settings, &stats);
+    result_.warnings = inputs.loaded.report.warnings;
+    result_.warnings.insert(result_.warnings.end(), stats.warnings.begin(), stats.warnings.end());
+    result_.film = HashFilm(film);
+    const bool same_film = expect_.film == result_.film;
+    if (same_film && !(options_.update && expect_.picture)) {
+      result_.verdict = Verdict::Passed;
+      return;
+    }
+    const Image actual = Develop(film, entry_.request.display, entry_.request.type);
+    film = {};
+    const std::optional<Golden> golden = FindGolden(actual);
+    if (golden && actual.width == golden->image.width && actual.height == golden->image.height) {
+      result_.difference = CompareImages(golden->image, actual);
+    }
+    if (same_film) {  // here for the sake of its picture
+      result_.verdict = result_.difference && result_.difference->equal ? Verdict::Passed : Verdict::Failed;
+    } else {
+      Judge();
+    }
+    if (result_.verdict != Verdict::Passed) {
+      if (options_.pictures) KeepPictures(golden, actual);
+      Settle(actual, inputs, same_film);
+    }
+    if (result_.difference) result_.difference->flip_map = {};
+  }
+
+  RenderInputs Load() const {
+    try {
+      return LoadInputs(manifest_.folder / entry_.scene, entry_.request, {}, manifest_.folder);
+    } catch (const Error& error) {
+      throw Placed(manifest_, entry_, error);
+    }
+  }
+
+  // None where none is listed, or where it is to be replaced anyway.
+  std::optional<Golden> FindGolden(const Image& actual) const {
+    if (!expect_.picture) return std::nullopt;
+    const std::filesystem::path path = manifest_.folder / *expect_.picture;
+    const std::string place = PlaceIn(manifest_, entry_.pointer + "/expect/picture");
+    try {
+      Golden golden = LoadGolden(path);
+      const Image& image = golden.image;
+      if (!options_.update && (image.width != actual.width || image.height != actual.height)) {
+        throw Error(ErrorCode::InvalidInput,
+                    "is " + SizeText(image.width, image.height) + ", the rendering " +
+                        SizeText(actual.width, actual.height),
+                    Printable(path.string()), "the setting 'size', or --update, makes them one");
+      }
+      return golden;
+    } catch (const Error& error) {
+      if (options_.update) return std::nullopt;
+      throw Error(error.code(), error.where() + ": " + error.message(), place, error.hint());
+    }
+  }
+
+  // The film is another than the expected one, or none is expected.
+  void Judge() {
+    const std::optional<ImageDifference>& difference = result_.difference;
+    result_.verdict = Verdict::Failed;
+    if (!difference) {
+      result_.message = expect_.film      ? "the film differs"
+                        : expect_.picture ? "there is no golden picture of this size"  // to be updated
+                                          : "has no expectation; run with --update";
+      return;
+    }
+    const bool by_picture = !expect_.film || expect_.has_thresholds;
+    const std::vector<std::string> broken = BrokenThresholds(*difference, expect_.thresholds);
+    if (by_picture && broken.empty()) {
+      result_.verdict = difference->equal && !expect_.film ? Verdict::Passed : Verdict::Within;
+    }
+    const std::string film = expect_.film ? "the film differs; " : "";
+    if (result_.verdict == Verdict::Within) {
+      result_.message = film + "within thresholds: " + Summary(*difference);
+    } else if (result_.verdict == Verdict::Failed) {
+      result_.message = film + (expect_.has_thresholds ? Joined(broken) : Summary(*difference));
+    } else {
+      result_.message = Summary(*difference);
+    }
+  }
+
+  // Says whose difference it is, and makes what is found what is expected, where that is asked for.
+  void Settle(const Image& actual, const RenderInputs& inputs, bool same_film) {
+    const bool update = options_.update && (expect_.film || result_.verdict == Verdict::Failed);
+    std::vector<std::string> done;
+    if (!same_film && (update || expect_.inputs)) {
+      const ExpectedInputs now = HashInputs(inputs);
+      if (expect_.inputs) result_.message += "; " + Blame(*expect_.inputs, now);
+      if (update) {
+        update_ = NewExpectation{index_, *result_.film, now};
+        done.push_back(expect_.film ? "film " + Short(*expect_.film) + " is now " + Short(*result_.film)
+                                    : "film " + Short(*result_.film) + " recorded");
+      }
+    }
+    if (!update) return;
+    if (expect_.picture && !(result_.difference && result_.difference->equal)) {
+      WritePicture(actual);
+      done.push_back("picture written");
+    }
+    const bool was_there = expect_.film || result_.difference;
+    result_.verdict = Verdict::Updated;
+    result_.message = Joined(done) + (was_there && !same_film ? "; " + result_.message : "");
+  }
+
+  void WritePicture(const Image& actual) const {
+    const std::filesystem::path path = manifest_.folder / *expect_.picture;
+    std::error_code ignored;  // WriteFileWhole says it better
+    std::filesystem::create_directories(path.parent_path(), ignored);
+    const Provenance provenance{Version(), entry_.scene.filename().string(), SpelledOut(entry_.request), *result_.film,
+                                HashImage(actual)};
+    WriteFileWhole(path, EncodePng(actual, ToPngText(provenance)));
+  }
+
+  void KeepPictures(const std::optional<Golden>& golden, const Image& actual) {
+    result_.actual = EncodePng(actual);
+    if (golden) result_.expected = golden->file;
+    if (result_.difference) result_.heat_map = EncodePng(HeatMap(*result_.difference));
+  }
+
+  const Manifest& manifest_;
+  const ManifestEntry& entry_;
+  const Expectation& expect_;
+  const std::size_t index_;
+  const CheckOptions& options_;
+  const int threads_;
+  CheckedEntry result_;
+  std::optional<NewExpectation> update_;
+};
+
+std::vector<std::size_t> Selected(const Manifest& manifest, const std::string& only) {
+  std::vector<std::size_t> selected;
+  try {
+    const std::regex pattern(only);
+    for (std::size_t i = 0; i < manifest.entries.size(); ++i) {
+      if (std::regex_search(manifest.entries[i].name, pattern)) selected.push_back(i);
+    }
+  } catch (const std::regex_error&) {
+    throw Error(ErrorCode::InvalidUsage, Quoted(only) + " is no regular expression", "--only");
+  }
+  if (selected.empty() && !only.empty()) {
+    throw Error(ErrorCode::InvalidUsage, "no entry of " + manifest.name + " is called like " + Quoted(only), "--only");
+  }
+  return selected;
+}
+
+}  // namespace
+
+const char* NameOf(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::Passed:
+      return "passed";
+    case Verdict::Within:
+      return "within";
+    case Verdict::Updated:
+      return "updated";
+    case Verdict::Failed:
+      return "failed";
+    case Verdict::Error:
+      break;
+  }
+  return "error";
+}
+
+std::size_t CheckReport::Count(Verdict verdict) const {
+  return static_cast<std::size_t>(
+      std::count_if(entries.begin(), entries.end(), [&](const CheckedEntry& e) { return e.verdict == verdict; }));
+}
+
+CheckReport CheckManifest(const std::filesystem::path& path, const CheckOptions& options) {
+  const Clock::time_point start = Clock::now();
+  if (options.threads < 0) throw Error(ErrorCode::InvalidUsage, "a negative number of threads", "threads");
+  const Manifest manifest = ReadManifest(path);
+  CheckReport report;
+  report.manifest = manifest.name;
+  for (const Error& problem : manifest.problems) report.problems.push_back(problem.what());
+
+  const std::vector<std::size_t> selected = Selected(manifest, options.only);
+  report.entries.resize(selected.size());
+  std::vector<std::optional<NewExpectation>> updates(selected.size());
+  // Without a bound the threads of entries that are done help the others. With one, each entry has its fixed share.
+  const int most = static_cast<int>(std::min<std::size_t>(selected.size(), 16384));
+  const int beside = options.threads == 0 ? 0 : std::max(1, std::min(options.threads, most));
+  const int each = options.threads == 0 ? 0 : options.threads / beside;
+  RunWithThreads(beside, [&] {
+    ParallelFor(selected.size(), 1, [&](std::size_t i, std::size_t) {
+      std::tie(report.entries[i], updates[i]) = Check(manifest, selected[i], options, each).Run();
+    });
+  });
+
+  std::vector<NewExpectation> expectations;
+  for (const std::optional<NewExpectation>& update : updates) {
+    if (update) expectations.push_back(*update);
+  }
+  if (!expectations.empty()) {
+    const std::string text = Rewritten(manifest, expectations);
+    WriteFileWhole(path, std::as_bytes(std::span(text)));
+  }
+  report.seconds = SecondsSince(start);
+  return report;
+}
+
+}  // namespace facet
