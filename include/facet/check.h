@@ -42,7 +42,8 @@ struct CheckedEntry {
   std::optional<Digest> expected_film;        // as the manifest had it
   std::optional<ImageDifference> difference;  // to the golden picture, where they were compared; its flip_map is empty
   std::vector<std::string> warnings;          // of loading and rendering
-  // PNG files, with CheckOptions::pictures, of entries that were rendered and not equal. Empty: there is no such picture.
+  // PNG files, with CheckOptions::pictures, of entries that were rendered and not equal. Empty: there is no such
+  // picture.
   std::vector<std::byte> expected, actual, heat_map;
 };
 
@@ -55,13 +56,13 @@ struct CheckReport {
   std::size_t Count(Verdict verdict) const;
 };
 
-// Renders the entries of a manifest, several at a time, and compares. An entry is first decided by the hash of its film;
-// only where that differs, or is not given, is a picture developed and compared. An error in one entry ends up in its
-// verdict and stops no other. Apart from the times the report does not depend on the number of threads.
-// With options.update the golden pictures and the manifest are rewritten where they do not hold, each file whole or not
-// at all; entries that cannot be rendered stay as they are.
-// Throws Error where nothing could be run: NotFound, InvalidInput (no JSON, or no manifest), InvalidUsage (a bad
-// option, or no entry is selected), OutputFailed (the manifest cannot be rewritten).
+// Renders the entries of a manifest, several at a time, and compares. An entry is first decided by the hash of its
+// film; only where that differs, or is not given, is a picture developed and compared. An error in one entry ends up in
+// its verdict and stops no other. Apart from the times the report does not depend on the number of threads. With
+// options.update the golden pictures and the manifest are rewritten where they do not hold, each file whole or not at
+// all; entries that cannot be rendered stay as they are. Throws Error where nothing could be run: NotFound,
+// InvalidInput (no JSON, or no manifest), InvalidUsage (a bad option, or no entry is selected), OutputFailed (the
+// manifest cannot be rewritten).
 CheckReport CheckManifest(const std::filesystem::path& manifest, const CheckOptions& options = {});
 
 // The report as one HTML file that needs no other: the table of all entries, and the pictures that were kept, side by

@@ -1,8 +1,8 @@
 // Everything a user of the library includes.
 #pragma once
 
-#include "facet/compare.h"
 #include "facet/check.h"
+#include "facet/compare.h"
 #include "facet/digest.h"
 #include "facet/error.h"
 #include "facet/film.h"

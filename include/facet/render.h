@@ -61,6 +61,18 @@ struct EnvironmentSettings {
 
 enum class Background : std::uint8_t { Transparent, Environment };
 
+// --- Approximations ---------------------------------------------------------------------------------------------------
+
+// How textures are kept. Mixed: colour as 16 bits of linear light a channel, all else as the file's 8 (or 16) bits.
+enum class TexelBits : std::uint8_t { Mixed, Eight, Sixteen };
+
+// How the light that a diffuse surface gathers is integrated over the environment. SphericalHarmonics: nine coefficients
+// (Ramamoorthi and Hanrahan, 2001, An Efficient Representation for Irradiance Environment Maps).
+enum class IrradianceMethod : std::uint8_t { Convolution, SphericalHarmonics };
+
+// Whose tangents normal maps are read with. Generated: MikkTSpace's, also where the file has some.
+enum class TangentSource : std::uint8_t { File, Generated };
+
 // --- Settings ----------------------------------------------------------------------------------------------------------
 
 struct RenderSettings {
@@ -68,7 +80,13 @@ struct RenderSettings {
   int height = 1024;  // 1 to 16384
   int samples = 4;    // coverage samples per pixel: 1, 2, 4 or 8
   int threads = 0;    // 0: one per core
-  int max_anisotropy = 8;  // 1 to 16
+  int max_anisotropy = 8;                      // 1 to 16
+  MipFilter mip_filter = MipFilter::Linear;    // the most that samplers get
+  TexelBits texels = TexelBits::Mixed;
+  int environment_size = 1024;                 // most texels along the sharpest map of the environment: 64 to 1024, a power of two
+  int environment_samples = 48;                // of the narrowest lobe it is filtered with; wider ones take more: 6 to 768
+  IrradianceMethod irradiance = IrradianceMethod::Convolution;
+  TangentSource tangents = TangentSource::File;
   int tile_size = 32;      // 8, 16, 32 or 64: never changes the picture
   int scene = -1;          // -1: the default one
   int animation = -1;      // -1: rest pose

@@ -54,7 +54,7 @@ std::string Table(const DiffOptions& options, const ImageDifference& d, const st
     text += row("not finite", Count(d.non_finite_pixels_a, "pixel") + " and " + Count(d.non_finite_pixels_b, "pixel"));
   }
   for (const std::string& line : broken) {
-    if (!d.equal) text += row("beyond", line);
+    if (!d.equal) text += row("verdict", line);
   }
   return text;
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <variant>
 
+#include "cli/check_command.h"
 #include "cli/console.h"
 #include "cli/diff_command.h"
 #include "cli/hash_command.h"
@@ -56,6 +57,9 @@ struct Run {
   }
   int operator()(const DiffOptions& options) const {
     return Compared([&] { return RunDiff(options); });
+  }
+  int operator()(const CheckCommandOptions& options) const {
+    return Compared([&] { return RunCheck(options); });
   }
 };
 

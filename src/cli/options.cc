@@ -215,6 +215,27 @@ CLI::App& AddDiff(CLI::App& program, DiffOptions& options) {
   return app;
 }
 
+CLI::App& AddCheck(CLI::App& program, CheckCommandOptions& options) {
+  CommandPage page(program, "check", "Golden tests: render what a manifest lists and compare", "MANIFEST [OPTIONS]",
+                   std::string("docs/golden-tests.md describes manifests.\n\n") + kComparisonExitCodes);
+  CLI::App& app = page.app();
+  AddPath(app, "MANIFEST", "A JSON file: scenes, their settings and what is expected", options.manifest);
+  const std::string group = "Options";
+  AddFlag(app, group, "--update", "Rewrite the expectations that do not hold, and say\nwhich", options.check.update);
+  Add(app, group, "--only", "REGEX", "Entries whose name contains a match [all]",
+      [&](const std::string& text) { options.check.only = text; });
+  Add(app, group, "--html", "FILE", "A report for people: one page with the pictures",
+      [&](const std::string& text) { options.html = text; });
+  Add(app, group, "--junit", "FILE", "A report for continuous integration, as JUnit XML",
+      [&](const std::string& text) { options.junit = text; });
+  Add(app, group, "--output", "FOLDER", "Where pictures of failed entries are written [nowhere]",
+      [&](const std::string& text) { options.output = text; });
+  AddThreads(app, group, options.check.threads);
+  AddFlag(app, group, "--json", "As JSON instead of a table", options.json);
+  page.End(group);
+  return app;
+}
+
 }  // namespace
 
 Command ParseCommandLine(int argc, const char* const* argv) {
@@ -231,11 +252,13 @@ Command ParseCommandLine(int argc, const char* const* argv) {
   HashOptions hash;
   VerifyOptions verify;
   DiffOptions diff;
+  CheckCommandOptions check;
   AddRender(program, render);
   const CLI::App& info_app = AddInfo(program, info);
   const CLI::App& hash_app = AddHash(program, hash);
   const CLI::App& verify_app = AddVerify(program, verify);
   const CLI::App& diff_app = AddDiff(program, diff);
+  const CLI::App& check_app = AddCheck(program, check);
 
   try {
     program.parse(argc, argv);
@@ -251,6 +274,7 @@ Command ParseCommandLine(int argc, const char* const* argv) {
   if (hash_app.parsed()) return hash;
   if (verify_app.parsed()) return verify;
   if (diff_app.parsed()) return diff;
+  if (check_app.parsed()) return check;
   return render;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <variant>
 
+#include "cli/check_command.h"
 #include "cli/diff_command.h"
 #include "facet/load.h"
 #include "report/render_request.h"
@@ -50,7 +51,8 @@ struct TextRequest {
   std::string text;
 };
 
-using Command = std::variant<TextRequest, RenderOptions, InfoOptions, HashOptions, VerifyOptions, DiffOptions>;
+using Command =
+    std::variant<TextRequest, RenderOptions, InfoOptions, HashOptions, VerifyOptions, DiffOptions, CheckCommandOptions>;
 
 // Throws Error(InvalidUsage).
 Command ParseCommandLine(int argc, const char* const* argv);

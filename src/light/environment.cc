@@ -8,6 +8,7 @@
 #include "base/parallel.h"
 #include "image/convert.h"
 #include "light/environment_kernels.h"
+#include "light/irradiance_harmonics.h"
 #include "math/elementary.h"
 
 namespace facet {
@@ -92,7 +93,8 @@ void FillCells(EnvironmentMap* map, const Level& from, float* texels, const Cell
       const float* top = RowOf(map, from, y);
       const float* bottom = RowOf(map, from, y + 1);
       float* out = RowOf(texels, to, y);
-      for (std::int32_t i = 0; i < 4 * to.size; ++i) out[i] = 0.25f * ((top[i] + top[i + 4]) + (bottom[i] + bottom[i + 4]));
+      for (std::int32_t i = 0; i < 4 * to.size; ++i)
+        out[i] = 0.25f * ((top[i] + top[i + 4]) + (bottom[i] + bottom[i + 4]));
     }
   });
   FillBorder(texels, to);
@@ -122,8 +124,8 @@ void HalveSquare(float* texels, const Cells& from, const Cells& to) {
 // Directions about +Z distributed as GGX reflects light when view and normal are +Z, each with the square of `chain`
 // whose texels are as large as its share of the lobe: filtered importance sampling (Krivanek and Colbert, 2008,
 // Real-time Shading with Filtered Importance Sampling, equation 12; without their bias of one level, because bilinear
-// reading makes neighbouring samples overlap anyway, and the bias cost 8 % of a small lamp's peak). Half vectors are taken
-// from GGX's distribution at Hammersley's points; a direction's weight is n_dot_l (Karis, 2013).
+// reading makes neighbouring samples overlap anyway, and the bias cost 8 % of a small lamp's peak). Half vectors are
+// taken from GGX's distribution at Hammersley's points; a direction's weight is n_dot_l (Karis, 2013).
 std::vector<LobeSample> MakeLobe(double alpha, int count, const std::vector<Cells>& chain) {
   std::vector<LobeSample> samples;
   const double base_solid_angle = 4.0 * kPiDouble / (double(chain[0].size) * double(chain[0].size));
@@ -180,7 +182,7 @@ std::vector<SourceTexel> MakeSource(const float* texels, const Cells& level) {
 // Levels below kFirstConvolved are sampled, the others are rough enough to be summed over every texel of a small map.
 constexpr int kFirstConvolved = 4;
 constexpr std::int32_t kNominalSize[EnvironmentMap::kLevels] = {0, 256, 128, 64, 64, 32, 32, 32, 32};
-constexpr int kSampleCount[kFirstConvolved] = {0, 48, 96, 192};
+constexpr int kSampleFactor[kFirstConvolved] = {0, 1, 2, 4};
 constexpr std::int32_t kSourceSize = 64;
 constexpr std::int32_t kSmallestBase = 64;
 constexpr std::int32_t kSmallestOfChain = 8;  // coarser squares bend too much for bilinear reading
@@ -190,7 +192,8 @@ double AlphaOfLevel(int level) {
   return perceptual_roughness * perceptual_roughness;
 }
 
-void FillSampledLevels(EnvironmentMap* map, const std::vector<float>& chain_texels, const std::vector<Cells>& chain) {
+void FillSampledLevels(EnvironmentMap* map, const std::vector<float>& chain_texels, const std::vector<Cells>& chain,
+                       int samples) {
   std::array<std::vector<LobeSample>, kFirstConvolved> lobes;
   struct Row {
     int level;
@@ -198,7 +201,7 @@ void FillSampledLevels(EnvironmentMap* map, const std::vector<float>& chain_texe
   };
   std::vector<Row> rows;
   for (int k = 1; k < kFirstConvolved; ++k) {
-    lobes[k] = MakeLobe(AlphaOfLevel(k), kSampleCount[k], chain);
+    lobes[k] = MakeLobe(AlphaOfLevel(k), samples * kSampleFactor[k], chain);
     for (std::int32_t row = 0; row <= map->levels[k].size; ++row) rows.push_back({k, row});
   }
   ParallelFor(rows.size(), 8, [&](std::size_t begin, std::size_t end) {
@@ -211,21 +214,24 @@ void FillSampledLevels(EnvironmentMap* map, const std::vector<float>& chain_texe
   });
 }
 
-// The rough levels and, as the last of them, the irradiance. Squares of one size share the sum over the source.
-void FillConvolvedLevels(EnvironmentMap* map, const std::vector<SourceTexel>& source) {
-  constexpr int kCount = EnvironmentMap::kLevels - kFirstConvolved + 1;
-  const Level* squares[kCount];
-  float alpha[kCount];
-  for (int k = 0; k < kCount; ++k) {
-    const bool is_irradiance = k + 1 == kCount;
+// The rough levels and, as the last of them, the irradiance where it is convolved. Squares of one size share the sum
+// over the source.
+void FillConvolvedLevels(EnvironmentMap* map, const std::vector<SourceTexel>& source, IrradianceMethod method) {
+  constexpr int kMost = EnvironmentMap::kLevels - kFirstConvolved + 1;
+  const int count = method == IrradianceMethod::Convolution ? kMost : kMost - 1;
+  const Level* squares[kMost];
+  float alpha[kMost];
+  for (int k = 0; k < count; ++k) {
+    const bool is_irradiance = k + 1 == kMost;
     squares[k] = is_irradiance ? &map->irradiance : &map->levels[kFirstConvolved + k];
     alpha[k] = is_irradiance ? 0.0f : static_cast<float>(AlphaOfLevel(kFirstConvolved + k));
   }
-  for (int first = 0, last = 0; first < kCount; first = last) {
-    while (last < kCount && last - first < kMaxConvolutions && squares[last]->size == squares[first]->size) ++last;
+  for (int first = 0, last = 0; first < count; first = last) {
+    while (last < count && last - first < kMaxConvolutions && squares[last]->size == squares[first]->size) ++last;
     ParallelFor(std::size_t(squares[first]->size) + 1, 2, [&](std::size_t begin, std::size_t end) {
       for (auto row = std::int32_t(begin); row < std::int32_t(end); ++row) {
-        ConvolveRowTask task{source.data(), std::int32_t(source.size()), last - first, {}, squares[first]->size, row, {}};
+        ConvolveRowTask task{
+            source.data(), std::int32_t(source.size()), last - first, {}, squares[first]->size, row, {}};
         for (int k = first; k < last; ++k) {
           task.alpha[k - first] = alpha[k];
           task.out[k - first] = RowOf(map, *squares[k], row);
@@ -243,8 +249,7 @@ std::shared_ptr<const EnvironmentMap> PrefilterEnvironment(const Image& equirect
   CheckImage(equirectangular, "environment");
   auto map = std::make_shared<EnvironmentMap>();
   std::int32_t width = equirectangular.width, height = 0;
-  std::vector<float> picture =
-      PadPixels(ToLinearRgb32F(equirectangular, &map->repaired_values), &height);
+  std::vector<float> picture = PadPixels(ToLinearRgb32F(equirectangular, &map->repaired_values), &height);
   if (options.keep_picture) {
     map->picture = picture;
     map->picture_width = width;
@@ -293,10 +298,15 @@ std::shared_ptr<const EnvironmentMap> PrefilterEnvironment(const Image& equirect
   FillCells(map.get(), map->levels[0], chain_texels.data(), chain[0]);
   for (std::size_t k = 1; k < chain.size(); ++k) HalveSquare(chain_texels.data(), chain[k - 1], chain[k]);
 
-  FillSampledLevels(map.get(), chain_texels, chain);
-  const auto source_level = std::find_if(chain.begin(), chain.end(), [](const Cells& c) { return c.size == kSourceSize; });
+  FillSampledLevels(map.get(), chain_texels, chain, options.samples);
+  const auto source_level =
+      std::find_if(chain.begin(), chain.end(), [](const Cells& c) { return c.size == kSourceSize; });
   FACET_CHECK(source_level != chain.end());
-  FillConvolvedLevels(map.get(), MakeSource(chain_texels.data(), *source_level));
+  const std::vector<SourceTexel> source = MakeSource(chain_texels.data(), *source_level);
+  FillConvolvedLevels(map.get(), source, options.irradiance);
+  if (options.irradiance == IrradianceMethod::SphericalHarmonics) {
+    FillIrradianceFromHarmonics(source, map->irradiance.size, map->texels.data() + map->irradiance.offset);
+  }
   return map;
 }
 

@@ -12,12 +12,14 @@
 // needed.
 #pragma once
 
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <vector>
 
 #include "facet/image.h"
+#include "facet/render.h"
 
 namespace facet {
 
@@ -60,7 +62,10 @@ struct EnvironmentMap {
 
 struct EnvironmentOptions {
   bool keep_picture = false;  // for Background()
-  int max_size = 1024;        // of level 0, a power of two; the default suits pictures of 2048 x 1024 and more
+  int max_size = 1024;        // of level 0, a power of two of 64 at least; the default suits pictures of 2048 x 1024 and more
+  int samples = 48;           // of the narrowest lobe
+  IrradianceMethod irradiance = IrradianceMethod::Convolution;
+  friend auto operator<=>(const EnvironmentOptions&, const EnvironmentOptions&) = default;
 };
 
 // Prepares an equirectangular picture (any type, encoding and channel count; alpha is ignored). Runs in parallel; the

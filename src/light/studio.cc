@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/glm.hpp>
+#include <map>
+#include <mutex>
+#include <utility>
 #include <vector>
 
 #include "base/check.h"
@@ -119,16 +122,18 @@ Image StudioPicture(int width, int height) {
   return image;
 }
 
-std::shared_ptr<const EnvironmentMap> StudioEnvironment(bool keep_picture) {
-  const auto make = [](bool keep) {
-    return PrefilterEnvironment(StudioPicture(kStudioWidth, kStudioHeight), {keep, 256});
-  };
-  if (keep_picture) {
-    static const std::shared_ptr<const EnvironmentMap> kept = make(true);
-    return kept;
+std::shared_ptr<const EnvironmentMap> StudioEnvironment(const EnvironmentOptions& options) {
+  static std::mutex mutex;
+  static std::map<EnvironmentOptions, std::shared_ptr<const EnvironmentMap>> prepared;
+  {
+    const std::lock_guard<std::mutex> lock(mutex);
+    if (const auto known = prepared.find(options); known != prepared.end()) return known->second;
   }
-  static const std::shared_ptr<const EnvironmentMap> lean = make(false);
-  return lean;
+  // Outside of the lock, which must not be held while this thread helps with other tasks; whoever is second throws its
+  // own away.
+  auto map = PrefilterEnvironment(StudioPicture(kStudioWidth, kStudioHeight), options);
+  const std::lock_guard<std::mutex> lock(mutex);
+  return prepared.try_emplace(options, std::move(map)).first->second;
 }
 
 }  // namespace facet

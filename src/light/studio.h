@@ -17,7 +17,7 @@ Image StudioPicture(int width, int height);
 // The size of the picture that lights scenes: nothing in the room is sharper than its pixels.
 inline constexpr int kStudioWidth = 512, kStudioHeight = 256;
 
-// The same, prepared; made once per process and value of `keep_picture`. Thread-safe.
-std::shared_ptr<const EnvironmentMap> StudioEnvironment(bool keep_picture = false);
+// The same, prepared; made once per process and value of `options`. Thread-safe.
+std::shared_ptr<const EnvironmentMap> StudioEnvironment(const EnvironmentOptions& options = {});
 
 }  // namespace facet

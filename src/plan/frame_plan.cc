@@ -21,13 +21,13 @@ class Planner {
     const Material& material =
         drawable.material >= 0 ? scene_.materials[std::size_t(drawable.material)] : kDefaultMaterial;
     // Points and lines have no surface: without normals they are drawn unlit (glTF 2.0 specification, 3.9.6).
-    const bool unlit = material.unlit ||
-                       (geometry.normals.empty() && ClassOf(geometry.topology) != PrimitiveClass::Triangles);
+    const bool unlit =
+        material.unlit || (geometry.normals.empty() && ClassOf(geometry.topology) != PrimitiveClass::Triangles);
     const bool colors = !geometry.colors.empty();
     // Points and lines get no tangents from anyone; without the file's they have no tangent space.
     const bool flat = geometry.tangents.empty() && ClassOf(geometry.topology) != PrimitiveClass::Triangles;
-    const auto [known, is_new] = materials_.try_emplace({drawable.material, unlit, colors, flat},
-                                                        static_cast<int>(plan.materials.size()));
+    const auto [known, is_new] =
+        materials_.try_emplace({drawable.material, unlit, colors, flat}, static_cast<int>(plan.materials.size()));
     if (is_new) plan.materials.push_back(Plan(material, drawable.material, unlit, colors, flat));
     return known->second;
   }
@@ -62,7 +62,8 @@ class Planner {
     };
     const Use uses[5] = {
         {material.base_color_texture, kBaseColorTexture, TextureRole::Color, f.base_color_texture},
-        {material.metallic_roughness_texture, kMetallicRoughnessTexture, TextureRole::Data, f.metallic_roughness_texture},
+        {material.metallic_roughness_texture, kMetallicRoughnessTexture, TextureRole::Data,
+         f.metallic_roughness_texture},
         {material.normal_texture, kNormalTexture, TextureRole::Data, f.normal_texture},
         {material.occlusion_texture, kOcclusionTexture, TextureRole::Data, f.occlusion_texture},
         {material.emissive_texture, kEmissiveTexture, TextureRole::Color, f.emissive_texture},
@@ -75,8 +76,9 @@ class Planner {
         f.features &= ~std::uint32_t{use.feature};
         continue;
       }
-      planned.textures[i] = TextureFor(texture.image, use.role, texture.sampler.mip != MipFilter::None);
       use.slot.sampler = texture.sampler;
+      use.slot.sampler.mip = std::min(texture.sampler.mip, settings_.mip_filter);
+      planned.textures[i] = TextureFor(texture.image, use.role, use.slot.sampler.mip != MipFilter::None);
       use.slot.max_anisotropy = static_cast<float>(settings_.max_anisotropy);
       use.slot.uv_slot = SlotFor(f, use.ref.tex_coord);
       SetTransform(use.ref, use.slot);

@@ -51,6 +51,13 @@ void CheckSettings(const RenderSettings& s) {
   if (s.max_anisotropy < 1 || s.max_anisotropy > 16) {
     Refuse("a maximal anisotropy of " + std::to_string(s.max_anisotropy), "1 to 16 are accepted");
   }
+  const int size = s.environment_size;
+  if (size < 64 || size > 1024 || (size & (size - 1)) != 0) {
+    Refuse("an environment of " + std::to_string(size) + " texels", "64, 128, 256, 512 or 1024 are accepted");
+  }
+  if (s.environment_samples < 6 || s.environment_samples > 768) {
+    Refuse(std::to_string(s.environment_samples) + " samples of the environment", "6 to 768 are accepted");
+  }
   if (s.tile_size != 8 && s.tile_size != 16 && s.tile_size != 32 && s.tile_size != 64) {
     Refuse("tiles of " + std::to_string(s.tile_size) + " pixels", "8, 16, 32 or 64 are accepted");
   }
@@ -67,11 +74,9 @@ void CheckSettings(const RenderSettings& s) {
 std::shared_ptr<const EnvironmentMap> PrepareEnvironment(const FramePlan& plan, const RenderSettings& settings,
                                                          RenderStats& stats) {
   if (!plan.environment_light && !plan.environment_background) return nullptr;
-  if (settings.environment.kind == EnvironmentSettings::Kind::Studio) {
-    return StudioEnvironment(plan.environment_background);
-  }
-  EnvironmentOptions options;
-  options.keep_picture = plan.environment_background;
+  const EnvironmentOptions options{plan.environment_background, settings.environment_size, settings.environment_samples,
+                                   settings.irradiance};
+  if (settings.environment.kind == EnvironmentSettings::Kind::Studio) return StudioEnvironment(options);
   auto map = PrefilterEnvironment(*settings.environment.image, options);
   if (map->repaired_values > 0) {
     stats.warnings.push_back("environment: " + std::to_string(map->repaired_values) +
@@ -87,6 +92,7 @@ Film RenderPinned(const Scene& scene, const RenderSettings& settings, RenderStat
   pose.animation = settings.animation;
   pose.time = settings.time;
   pose.variant = settings.variant;
+  pose.generate_tangents = settings.tangents == TangentSource::Generated;
   const PosedScene posed = Pose(scene, pose);
   FramePlan plan = MakeFramePlan(scene, posed, settings);
   stats.left_out = plan.left_out;
@@ -98,7 +104,7 @@ Film RenderPinned(const Scene& scene, const RenderSettings& settings, RenderStat
   const FrameGeometry geometry = RunGeometry(view, posed, plan, grid, settings.samples, stats);
   stats.geometry_seconds = stage.Lap();
 
-  const FrameTextures textures = DecodeTextures(scene, geometry.material_visible, plan, stats);
+  const FrameTextures textures = DecodeTextures(scene, geometry.material_visible, settings.texels, plan, stats);
   stats.texture_seconds = stage.Lap();
 
   const auto environment = PrepareEnvironment(plan, settings, stats);

@@ -8,8 +8,8 @@
 
 namespace facet {
 
-FrameTextures DecodeTextures(const Scene& scene, const std::vector<bool>& material_visible, FramePlan& plan,
-                             RenderStats& stats) {
+FrameTextures DecodeTextures(const Scene& scene, const std::vector<bool>& material_visible, TexelBits texels,
+                             FramePlan& plan, RenderStats& stats) {
   FrameTextures textures(plan.textures.size());
   std::vector<bool> needed(plan.textures.size(), false);
   for (std::size_t m = 0; m < plan.materials.size(); ++m) {
@@ -33,7 +33,7 @@ FrameTextures DecodeTextures(const Scene& scene, const std::vector<bool>& materi
         for (std::size_t t = 0; t < needed.size(); ++t) {
           const PlannedTexture& planned = plan.textures[t];
           if (!needed[t] || planned.image != images[i]) continue;
-          textures[t] = std::make_unique<const TextureData>(BuildTexture(image, planned.role, planned.mips));
+          textures[t] = std::make_unique<const TextureData>(BuildTexture(image, planned.role, planned.mips, texels));
         }
       } catch (const Error& error) {
         if (error.code() != ErrorCode::InvalidInput && error.code() != ErrorCode::NotFound) {

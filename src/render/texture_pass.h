@@ -16,7 +16,7 @@ using FrameTextures = std::vector<std::unique_ptr<const TextureData>>;
 
 // Also fills the texture slots of the plan's materials. Throws Error(MissingModule) where an image needs a module that
 // is not installed, Error(OutOfMemory) for images beyond the limits.
-FrameTextures DecodeTextures(const Scene& scene, const std::vector<bool>& material_visible, FramePlan& plan,
-                             RenderStats& stats);
+FrameTextures DecodeTextures(const Scene& scene, const std::vector<bool>& material_visible, TexelBits texels,
+                             FramePlan& plan, RenderStats& stats);
 
 }  // namespace facet

@@ -30,19 +30,16 @@ double SecondsSince(Clock::time_point start) { return std::chrono::duration<doub
 // What the loader complains of, as a place in the manifest.
 Error Placed(const Manifest& manifest, const ManifestEntry& entry, const Error& error) {
   const std::string& where = error.where();
-  const std::string scene = (manifest.folder / entry.scene).string();
   const auto at = [&](const std::string& pointer, const std::string& message) {
     return Error(error.code(), message, PlaceIn(manifest, pointer), error.hint());
   };
+  if (where.empty()) return at(entry.pointer, error.message());
   if (where.starts_with("--")) {
     return at(SettingPointer(entry, where.substr(2, where.find(' ') - 2)), error.message());
   }
-  const std::string message = where.empty() ? error.message() : where + ": " + error.message();
-  if (where.starts_with(scene)) return at(entry.pointer + "/scene", message);
-  if (entry.request.environment && where.starts_with((manifest.folder / *entry.request.environment).string())) {
-    return at(SettingPointer(entry, "environment"), message);
-  }
-  return at(entry.pointer, message);
+  const std::optional<std::filesystem::path>& sky = entry.request.environment;
+  const bool of_sky = sky && where.starts_with((manifest.folder / *sky).string());
+  return at(of_sky ? SettingPointer(entry, "environment") : entry.pointer + "/scene", where + ": " + error.message());
 }
 
 // A golden picture, as a file and decoded.
@@ -116,8 +113,9 @@ class Check {
       if (entry_.problem) throw Error(*entry_.problem);
       Decide();
     } catch (const Error& error) {
-      SetError(error.message() + (error.hint().empty() ? "" : "; " + error.hint()));
-      if (error.where().starts_with(manifest_.name)) result_.place = error.where();
+      const bool placed = error.where().starts_with(manifest_.name);
+      if (placed) result_.place = error.where();
+      SetError(placed ? std::string(error.what()).substr(error.where().size() + 2) : error.what());
     } catch (const std::bad_alloc&) {
       SetError("the machine has too little memory; fewer threads need less");
     } catch (const std::exception& error) {
@@ -183,15 +181,16 @@ class Check {
       Golden golden = LoadGolden(path);
       const Image& image = golden.image;
       if (!options_.update && (image.width != actual.width || image.height != actual.height)) {
-        throw Error(ErrorCode::InvalidInput,
-                    "is " + SizeText(image.width, image.height) + ", the rendering " +
-                        SizeText(actual.width, actual.height),
-                    Printable(path.string()), "the setting 'size', or --update, makes them one");
+        throw Error(
+            ErrorCode::InvalidInput,
+            "is " + SizeText(image.width, image.height) + ", the rendering " + SizeText(actual.width, actual.height),
+            Printable(path.string()), "the setting 'size', or --update, makes them one");
       }
       return golden;
     } catch (const Error& error) {
       if (options_.update) return std::nullopt;
-      throw Error(error.code(), error.where() + ": " + error.message(), place, error.hint());
+      const std::string hint = error.hint().empty() ? "--update writes it anew" : error.hint();
+      throw Error(error.code(), error.where() + ": " + error.message(), place, hint);
     }
   }
 
@@ -288,16 +287,11 @@ std::vector<std::size_t> Selected(const Manifest& manifest, const std::string& o
 
 const char* NameOf(Verdict verdict) {
   switch (verdict) {
-    case Verdict::Passed:
-      return "passed";
-    case Verdict::Within:
-      return "within";
-    case Verdict::Updated:
-      return "updated";
-    case Verdict::Failed:
-      return "failed";
-    case Verdict::Error:
-      break;
+    case Verdict::Passed: return "passed";
+    case Verdict::Within: return "within";
+    case Verdict::Updated: return "updated";
+    case Verdict::Failed: return "failed";
+    case Verdict::Error: break;
   }
   return "error";
 }

@@ -31,7 +31,7 @@ figure { margin: 0; } figcaption { margin-bottom: .3em; }
 .pictures > * { flex: 0 1 auto; min-width: 0; max-width: 100%; }
 img { display: block; max-width: 100%; min-width: min(12em, 100%); image-rendering: pixelated;
   background: repeating-conic-gradient(#bbb 0 25%, #fff 0 50%) 0 0 / 16px 16px; }
-.blink .stage { position: relative; cursor: pointer; }
+.blink .stage { position: relative; cursor: pointer; width: max-content; max-width: 100%; }
 .blink .stage img + img { position: absolute; inset: 0; width: 100%; height: 100%; clip-path: inset(0 0 0 var(--cut)); }
 .blink input { width: 100%; }
 )";
@@ -45,7 +45,8 @@ for (const pictures of document.querySelectorAll('.pictures')) {
   const figure = document.createElement('figure');
   figure.className = 'blink';
   figure.innerHTML = '<figcaption><span></span> <button>change</button> <button>blink</button></figcaption>' +
-    '<div class="stage"></div><input type="range" min="0" max="100" aria-label="expected to the left, actual to the right">';
+    '<div class="stage"></div>' +
+    '<input type="range" min="0" max="100" aria-label="expected to the left, actual to the right">';
   const stage = figure.querySelector('.stage'), slider = figure.querySelector('input');
   const [change, blink] = figure.querySelectorAll('button');
   stage.append(expected.cloneNode(), actual.cloneNode());
@@ -85,10 +86,10 @@ std::string Numbers(const ImageDifference& d) {
   row("RMSE", ShortNumber(d.rmse));
   row("PSNR", ShortNumber(d.psnr_db) + " dB");
   row("SSIM", ShortNumber(d.ssim));
-  row("largest difference", ShortNumber(d.max_difference) + " at (" + std::to_string(d.max_x) + ", " +
-                                std::to_string(d.max_y) + ")");
-  row("differing pixels", std::to_string(d.differing_pixels) + " of " +
-                              std::to_string(std::size_t(d.width) * std::size_t(d.height)));
+  row("largest difference",
+      ShortNumber(d.max_difference) + " at (" + std::to_string(d.max_x) + ", " + std::to_string(d.max_y) + ")");
+  row("differing pixels",
+      std::to_string(d.differing_pixels) + " of " + std::to_string(std::size_t(d.width) * std::size_t(d.height)));
   return html + "</table>\n";
 }
 
@@ -105,6 +106,7 @@ std::string Row(const CheckedEntry& entry, std::size_t index, bool has_section) 
   if (entry.verdict == Verdict::Passed && entry.film) {
     what += (what.empty() ? "" : "; ") + std::string("film <code>") + ToHex(*entry.film) + "</code>";
   }
+  if (entry.verdict == Verdict::Error) what += "<br><code>" + Escaped(entry.place) + "</code>";
   return "<tr class=\"" + std::string(NameOf(entry.verdict)) + "\"><td>" +
          (has_section ? "<a href=\"#entry-" + std::to_string(index) + "\">" + name + "</a>" : name) + "</td><td>" +
          Word(entry.verdict) + "</td><td class=\"number\">" + SecondsText(entry.seconds) + "&nbsp;s</td><td>" + what +
@@ -115,13 +117,13 @@ std::string Section(const CheckedEntry& entry, std::size_t index) {
   std::string html = "<section id=\"entry-" + std::to_string(index) + "\">\n<h2>" + Escaped(entry.name) + " " +
                      Word(entry.verdict) + "</h2>\n<p>" + Escaped(entry.message) + "<br><code>" + Escaped(entry.place) +
                      "</code></p>\n";
-  if (entry.difference) html += Numbers(*entry.difference);
-  html += Films(entry);
-  for (const std::string& warning : entry.warnings) html += "<p>Warning: " + Escaped(warning) + "</p>\n";
   const std::string pictures = Figure("expected", "expected", entry.expected) +
                                Figure("actual", "actual", entry.actual) +
                                Figure("difference", "difference (FLIP)", entry.heat_map);
   if (!pictures.empty()) html += "<div class=\"pictures\">\n" + pictures + "</div>\n";
+  if (entry.difference) html += Numbers(*entry.difference);
+  html += Films(entry);
+  for (const std::string& warning : entry.warnings) html += "<p>Warning: " + Escaped(warning) + "</p>\n";
   return html + "</section>\n";
 }
 
@@ -133,19 +135,22 @@ std::string CheckHtml(const CheckReport& report) {
     const std::size_t count = report.Count(verdict);
     if (count > 0) summary += (summary.empty() ? "" : ", ") + std::to_string(count) + " " + Word(verdict);
   }
-  std::string html = "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-                     "<meta name=\"viewport\" content=\"width=device-width\">\n<title>" +
-                     Escaped(report.manifest) + "</title>\n<style>" + std::string(kStyle) + "</style>\n</head>\n<body>\n" +
-                     "<h1>" + Escaped(report.manifest) + "</h1>\n<p>" + (summary.empty() ? "no entries" : summary) +
-                     "; " + SecondsText(report.seconds) + " s; facet " + Version() + "</p>\n";
-  for (const std::string& problem : report.problems) html += "<p>" + Word(Verdict::Error) + " " + Escaped(problem) + "</p>\n";
-  html += "<input type=\"radio\" name=\"filter\" id=\"all\" checked><label for=\"all\">all</label>\n"
-          "<input type=\"radio\" name=\"filter\" id=\"only-open\"><label for=\"only-open\">all but passed</label>\n"
-          "<table>\n<thead><tr><th>entry</th><th>verdict</th><th>time</th><th></th></tr></thead>\n<tbody>\n";
+  std::string html =
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width\">\n<title>" +
+      Escaped(report.manifest) + "</title>\n<style>" + std::string(kStyle) + "</style>\n</head>\n<body>\n" + "<h1>" +
+      Escaped(report.manifest) + "</h1>\n<p>" + (summary.empty() ? "no entries" : summary) + "; " +
+      SecondsText(report.seconds) + " s; facet " + Version() + "</p>\n";
+  for (const std::string& problem : report.problems)
+    html += "<p>" + Word(Verdict::Error) + " " + Escaped(problem) + "</p>\n";
+  html +=
+      "<input type=\"radio\" name=\"filter\" id=\"all\" checked><label for=\"all\">all</label>\n"
+      "<input type=\"radio\" name=\"filter\" id=\"only-open\"><label for=\"only-open\">all but passed</label>\n"
+      "<table>\n<thead><tr><th>entry</th><th>verdict</th><th>time</th><th></th></tr></thead>\n<tbody>\n";
   std::string sections;
   for (std::size_t i = 0; i < report.entries.size(); ++i) {
     const CheckedEntry& entry = report.entries[i];
-    const bool has_section = entry.verdict != Verdict::Passed;
+    const bool has_section = entry.verdict != Verdict::Passed && entry.verdict != Verdict::Error;
     html += Row(entry, i, has_section);
     if (has_section) sections += Section(entry, i);
   }

@@ -36,8 +36,9 @@ std::string Hashes(const CheckedEntry& entry) {
 
 std::string JUnitXml(const CheckReport& report) {
   const std::string counts = Counts(report);
-  std::string xml = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites" + Attribute("name", "facet check") + counts +
-                    ">\n  <testsuite" + Attribute("name", report.manifest) + counts + Attribute("skipped", "0") + ">\n";
+  std::string xml = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites" + Attribute("name", "facet check") +
+                    counts + ">\n  <testsuite" + Attribute("name", report.manifest) + counts +
+                    Attribute("skipped", "0") + ">\n";
   const std::string suite = Attribute("classname", std::filesystem::path(report.manifest).stem().string());
   for (const std::string& problem : report.problems) {
     xml += "    <testcase" + suite + Attribute("name", "the manifest") + Attribute("time", "0.00") + ">\n" +

@@ -265,7 +265,8 @@ class TileView {
         const float* pixel = pixels + (static_cast<std::size_t>(from_y) * picture.width + from_x) * 4;
         Triple rgb = OverBackdrop(pixel, viewing.backdrop);
         for (double& value : rgb) {
-          if (viewing.tone_mapped) value = FlipToneCurve(value * viewing.factor);
+          // The tone curve is no curve below 0.
+          if (viewing.tone_mapped) value = FlipToneCurve(std::max(value, 0.0) * viewing.factor);
           value = std::clamp(value, 0.0, 1.0);
         }
         const Triple xyz = kXyzFromRgb * rgb;

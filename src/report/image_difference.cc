@@ -81,8 +81,13 @@ struct Sums {
   }
 };
 
+// The difference of two fractions that ReadRow made of codes, as if the codes were subtracted: the same for equal steps
+// anywhere in the range.
+double CodeDifference(double a, double b) { return std::floor(std::abs(a - b) * 65535.0 + 0.5) / 65535.0; }
+
 // `broken`: a row; set to 1 where the pixels differ in a number that is not finite.
-Sums SumRow(const std::vector<double>& a, const std::vector<double>& b, int y, int channels, std::uint8_t* broken) {
+Sums SumRow(const std::vector<double>& a, const std::vector<double>& b, int y, int channels, bool codes,
+            std::uint8_t* broken) {
   Sums sums;
   for (std::size_t x = 0; x < a.size() / 4; ++x) {
     const double *p = &a[x * 4], *q = &b[x * 4];
@@ -91,7 +96,7 @@ Sums SumRow(const std::vector<double>& a, const std::vector<double>& b, int y, i
     for (int channel = 0; channel < channels; ++channel) {
       if (SameBits(p[channel], q[channel])) continue;
       differs = true;
-      double difference = std::abs(p[channel] - q[channel]);
+      double difference = codes ? CodeDifference(p[channel], q[channel]) : std::abs(p[channel] - q[channel]);
       if (!std::isfinite(difference)) difference = std::numeric_limits<double>::infinity();
       sums.squares += difference * difference;
       if (difference > sums.max_difference) {
@@ -116,7 +121,7 @@ Sums SumPixels(const Image& a, const Image& b, int channels, std::vector<std::ui
       ReadRow(a, static_cast<int>(y), row_a);
       ReadRow(b, static_cast<int>(y), row_b);
       std::uint8_t* broken_row = broken.data() + y * static_cast<std::size_t>(a.width);
-      rows[y] = SumRow(row_a, row_b, static_cast<int>(y), channels, broken_row);
+      rows[y] = SumRow(row_a, row_b, static_cast<int>(y), channels, a.type != ChannelType::F32, broken_row);
     }
   });
   Sums all;  // row by row: the order does not depend on threads

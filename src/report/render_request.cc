@@ -96,10 +96,46 @@ constexpr std::array kOptions = {
     RequestOption{"samples", kQuality, "1|2|4|8", "4", "Coverage samples a pixel [4]",
                   [](RenderRequest& r, Text where, Text text) {
                     r.settings.samples = 1 << ParseChoice(where, text, {"1", "2", "4", "8"});
-                  }},
+                  },
+                  "1 2 4 8"},
     RequestOption{
         "max-anisotropy", kQuality, "N", "8", "Texture samples along a stretched footprint,\n1 to 16 [8]",
-        [](RenderRequest& r, Text where, Text text) { r.settings.max_anisotropy = ParseInteger(where, text, 1, 16); }},
+        [](RenderRequest& r, Text where, Text text) { r.settings.max_anisotropy = ParseInteger(where, text, 1, 16); },
+        "1 2 4 8 16"},
+    RequestOption{
+        "mip-filter", kQuality, "WHICH", "linear", "The most between mip levels: none, nearest or\nlinear [linear]",
+        [](RenderRequest& r, Text where, Text text) {
+          r.settings.mip_filter = static_cast<MipFilter>(ParseChoice(where, text, {"none", "nearest", "linear"}));
+        },
+        "none nearest linear"},
+    RequestOption{"texels", kQuality, "BITS", "mixed",
+                  "Bits a channel that textures are kept with: 8, 16\nor mixed, 16 for colours [mixed]",
+                  [](RenderRequest& r, Text where, Text text) {
+                    r.settings.texels = static_cast<TexelBits>(ParseChoice(where, text, {"mixed", "8", "16"}));
+                  },
+                  "8 mixed 16"},
+    RequestOption{"tangents", kQuality, "WHOSE", "file", "file, or generated also where it has some [file]",
+                  [](RenderRequest& r, Text where, Text text) {
+                    r.settings.tangents = static_cast<TangentSource>(ParseChoice(where, text, {"file", "generated"}));
+                  },
+                  "file generated"},
+    RequestOption{"environment-size", kQuality, "N", "1024",
+                  "Texels along the environment's sharpest map, 64,\n128, 256, 512 or 1024 [1024]",
+                  [](RenderRequest& r, Text where, Text text) {
+                    r.settings.environment_size = 64 << ParseChoice(where, text, {"64", "128", "256", "512", "1024"});
+                  },
+                  "64 128 256 512 1024"},
+    RequestOption{"environment-samples", kQuality, "N", "48", "Of its narrowest lobe, 6 to 768 [48]",
+                  [](RenderRequest& r, Text where, Text text) {
+                    r.settings.environment_samples = ParseInteger(where, text, 6, 768);
+                  },
+                  "6 12 24 48 96 192"},
+    RequestOption{
+        "irradiance", kQuality, "METHOD", "convolution", "convolution, or harmonics of degree 2 [convolution]",
+        [](RenderRequest& r, Text where, Text text) {
+          r.settings.irradiance = static_cast<IrradianceMethod>(ParseChoice(where, text, {"convolution", "harmonics"}));
+        },
+        "harmonics convolution"},
 };
 
 template <class T>

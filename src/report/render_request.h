@@ -40,6 +40,8 @@ struct RequestOption {
   std::string_view description;
   // `where`: what a message calls the option. Throws Error(InvalidUsage).
   void (*read)(RenderRequest& request, std::string_view where, std::string_view text);
+  // An approximation's values that are worth trying, from cheap to exact, separated by spaces; empty: it is none.
+  std::string_view sweep = {};
 };
 
 // In the order of the help page.

@@ -70,13 +70,13 @@ bool ReadsNormalMap(const Scene& scene, const Material& material) {
   return !material.unlit && ref && scene.textures[std::size_t(ref.texture)].image >= 0;
 }
 
-Shape MakeShape(const Scene& scene, const Primitive& primitive, int material) {
+Shape MakeShape(const Scene& scene, const Primitive& primitive, int material, bool generate_tangents) {
   Shape shape;
   shape.primitive = &primitive;
   if (material >= 0 && ClassOf(primitive.topology) == PrimitiveClass::Triangles) {
     const Material& used = scene.materials[std::size_t(material)];
-    shape.needs_tangents =
-        ReadsNormalMap(scene, used) && (primitive.normals.empty() || primitive.tangents.empty());
+    shape.needs_tangents = ReadsNormalMap(scene, used) &&
+                           (generate_tangents || primitive.normals.empty() || primitive.tangents.empty());
     shape.tex_coord = used.normal_texture.tex_coord;
   }
   return shape;
@@ -85,7 +85,8 @@ Shape MakeShape(const Scene& scene, const Primitive& primitive, int material) {
 using SharedShapes = std::map<const Primitive*, std::size_t>;  // undeformed: the same for all nodes with the mesh
 
 // The index in plan.shapes of each primitive of the node's mesh (of no meaning for those without vertices).
-std::vector<std::size_t> AddShapes(const Scene& scene, int node_index, int variant, SharedShapes& shared, Plan& plan) {
+std::vector<std::size_t> AddShapes(const Scene& scene, int node_index, const PoseSettings& settings,
+                                   SharedShapes& shared, Plan& plan) {
   const Node& node = scene.nodes[std::size_t(node_index)];
   const Mesh& mesh = scene.meshes[std::size_t(node.mesh)];
   const JointMatrices* joints = nullptr;  // made when a primitive has use for them
@@ -93,7 +94,7 @@ std::vector<std::size_t> AddShapes(const Scene& scene, int node_index, int varia
   for (std::size_t p = 0; p < mesh.primitives.size(); ++p) {
     const Primitive& primitive = mesh.primitives[p];
     if (primitive.positions.empty()) continue;
-    Shape shape = MakeShape(scene, primitive, MaterialOf(primitive, variant));
+    Shape shape = MakeShape(scene, primitive, MaterialOf(primitive, settings.variant), settings.generate_tangents);
     shape.where = "mesh " + std::to_string(node.mesh) + ", primitive " + std::to_string(p);
     shape.weights = &plan.nodes.weights[std::size_t(node_index)];
     shape.morphed = IsMorphed(primitive, *shape.weights);
@@ -153,7 +154,7 @@ Plan MakePlan(const Scene& scene, const PoseSettings& settings) {
   SharedShapes shared;
   for (const int index : plan.visible) {
     if (scene.nodes[std::size_t(index)].mesh < 0) continue;
-    const std::vector<std::size_t> shapes = AddShapes(scene, index, settings.variant, shared, plan);
+    const std::vector<std::size_t> shapes = AddShapes(scene, index, settings, shared, plan);
     AddDrawables(scene, index, settings.variant, shapes, plan);
   }
   return plan;

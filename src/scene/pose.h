@@ -14,6 +14,7 @@ struct PoseSettings {
   int animation = -1;  // -1: rest pose
   double time = 0.0;   // seconds, clamped to the keys of each channel
   int variant = -1;    // -1: none
+  bool generate_tangents = false;  // also where the geometry has some
 };
 
 // One primitive of one mesh, placed by one node (or one of its instances).

@@ -22,7 +22,8 @@ class TexelReader {
   TexelReader(const Image& image, TextureRole role) : image_(image) {
     const bool srgb = role == TextureRole::Color && image.encoding == Encoding::Srgb && image.type != ChannelType::F32;
     if (image.type == ChannelType::U8) {
-      for (int i = 0; i < 256; ++i) color8_[i] = srgb ? SrgbToLinear(static_cast<float>(i) / 255.0f) : static_cast<float>(i) / 255.0f;
+      for (int i = 0; i < 256; ++i)
+        color8_[i] = srgb ? SrgbToLinear(static_cast<float>(i) / 255.0f) : static_cast<float>(i) / 255.0f;
     } else if (image.type == ChannelType::U16 && srgb) {
       color16_.resize(65536);
       for (int i = 0; i < 65536; ++i) color16_[std::size_t(i)] = SrgbToLinear(static_cast<float>(i) / 65535.0f);
@@ -34,14 +35,18 @@ class TexelReader {
     switch (image_.type) {
       case ChannelType::U8: {
         const std::uint8_t* p = image_.As<std::uint8_t>() + first;
-        Expand(out, [&](int i) { return color8_[p[i]]; }, [&](int i) { return static_cast<float>(p[i]) / 255.0f; });
+        Expand(
+            out, [&](int i) { return color8_[p[i]]; }, [&](int i) { return static_cast<float>(p[i]) / 255.0f; });
         break;
       }
       case ChannelType::U16: {
         const std::uint16_t* p = image_.As<std::uint16_t>() + first;
         const auto data = [&](int i) { return static_cast<float>(p[i]) / 65535.0f; };
-        if (color16_.empty()) Expand(out, data, data);
-        else Expand(out, [&](int i) { return color16_[p[i]]; }, data);
+        if (color16_.empty())
+          Expand(out, data, data);
+        else
+          Expand(
+              out, [&](int i) { return color16_[p[i]]; }, data);
         break;
       }
       case ChannelType::F32: {
@@ -57,9 +62,18 @@ class TexelReader {
   template <class Color, class Alpha>
   void Expand(Rgba* out, const Color& color, const Alpha& alpha) const {
     const int n = image_.width, c = image_.channels;
-    if (c == 1) for (int x = 0; x < n; ++x) { const float v = color(x); out[x] = {v, v, v, 1.0f}; }
-    if (c == 2) for (int x = 0; x < n; ++x) { const float v = color(2 * x); out[x] = {v, v, v, alpha(2 * x + 1)}; }
-    if (c == 3) for (int x = 0; x < n; ++x) out[x] = {color(3 * x), color(3 * x + 1), color(3 * x + 2), 1.0f};
+    if (c == 1)
+      for (int x = 0; x < n; ++x) {
+        const float v = color(x);
+        out[x] = {v, v, v, 1.0f};
+      }
+    if (c == 2)
+      for (int x = 0; x < n; ++x) {
+        const float v = color(2 * x);
+        out[x] = {v, v, v, alpha(2 * x + 1)};
+      }
+    if (c == 3)
+      for (int x = 0; x < n; ++x) out[x] = {color(3 * x), color(3 * x + 1), color(3 * x + 2), 1.0f};
     if (c == 4) {
       for (int x = 0; x < n; ++x) out[x] = {color(4 * x), color(4 * x + 1), color(4 * x + 2), alpha(4 * x + 3)};
     }
@@ -80,8 +94,11 @@ void StoreRow(TextureData& texture, int level, int y, const Rgba* row) {
     const std::size_t texel = base + std::size_t(x / 4) * 16 + std::size_t(x % 4);
     const Rgba& c = row[x];
     if (texture.wide) {
-      texture.words[2 * texel] = Quantize(c.r, 65535.0f) | static_cast<std::int32_t>(static_cast<std::uint32_t>(Quantize(c.g, 65535.0f)) << 16);
-      texture.words[2 * texel + 1] = Quantize(c.b, 65535.0f) | static_cast<std::int32_t>(static_cast<std::uint32_t>(Quantize(c.a, 65535.0f)) << 16);
+      texture.words[2 * texel] = Quantize(c.r, 65535.0f) |
+                                 static_cast<std::int32_t>(static_cast<std::uint32_t>(Quantize(c.g, 65535.0f)) << 16);
+      texture.words[2 * texel + 1] =
+          Quantize(c.b, 65535.0f) |
+          static_cast<std::int32_t>(static_cast<std::uint32_t>(Quantize(c.a, 65535.0f)) << 16);
     } else {
       texture.words[texel] = Quantize(c.r, 255.0f) | Quantize(c.g, 255.0f) << 8 | Quantize(c.b, 255.0f) << 16 |
                              static_cast<std::int32_t>(static_cast<std::uint32_t>(Quantize(c.a, 255.0f)) << 24);
@@ -145,7 +162,7 @@ void LayOut(TextureData& texture, const Image& image, bool mips) {
 
 }  // namespace
 
-TextureData BuildTexture(const Image& image, TextureRole role, bool mips) {
+TextureData BuildTexture(const Image& image, TextureRole role, bool mips, TexelBits bits) {
   const bool sized = image.width >= 1 && image.height >= 1 && image.channels >= 1 && image.channels <= 4;
   if (!sized || image.bytes.size() / image.PixelCount() != std::size_t(image.channels) * SizeOf(image.type)) {
     throw Error(ErrorCode::InvalidInput,
@@ -153,7 +170,8 @@ TextureData BuildTexture(const Image& image, TextureRole role, bool mips) {
                     std::to_string(image.channels) + " channels in " + std::to_string(image.bytes.size()) + " bytes");
   }
   TextureData texture;
-  texture.wide = role == TextureRole::Color || image.type != ChannelType::U8;
+  texture.wide = bits == TexelBits::Mixed ? role == TextureRole::Color || image.type != ChannelType::U8
+                                          : bits == TexelBits::Sixteen;
   LayOut(texture, image, mips);
   const TexelReader reader(image, role);
 
@@ -168,8 +186,10 @@ TextureData BuildTexture(const Image& image, TextureRole role, bool mips) {
     const Rgba* const rows[3] = {buffer.data(), buffer.data() + n, buffer.data() + 2 * std::size_t(n)};
     for (std::size_t i = begin; i < end; ++i) {
       const int taps = nh == 1 ? 1 : nh == 2 * mh ? 2 : 3;
-      for (int t = 0; t < taps; ++t) reader.Row(static_cast<int>(2 * i) + t, buffer.data() + std::size_t(t) * std::size_t(n));
-      const int own = static_cast<int>(i) + 1 == mh ? taps : std::min(taps, 2);  // the third row is the next one's first
+      for (int t = 0; t < taps; ++t)
+        reader.Row(static_cast<int>(2 * i) + t, buffer.data() + std::size_t(t) * std::size_t(n));
+      const int own =
+          static_cast<int>(i) + 1 == mh ? taps : std::min(taps, 2);  // the third row is the next one's first
       for (int t = 0; t < own; ++t) StoreRow(texture, 0, static_cast<int>(2 * i) + t, rows[t]);
       if (above.empty()) continue;
       Rgba* out = above.data() + i * std::size_t(m);

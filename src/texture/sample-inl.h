@@ -119,7 +119,11 @@ struct Footprint {
 
 HWY_INLINE Footprint MakeFootprint(const TextureSlot& slot, Vec2<Float> duv_dx, Vec2<Float> duv_dy) {
   const Float width(static_cast<float>(slot.data->level_width[0])), height(static_cast<float>(slot.data->level_height[0]));
-  const Float ux = duv_dx.x * width, vx = duv_dx.y * height, uy = duv_dy.x * width, vy = duv_dy.y * height;
+  // Beyond every texture's last level, and below what overflows when it is squared twice; a NaN becomes the lower one.
+  const Float limit(1e9f);
+  const auto bounded = [&](Float texels) HWY_ATTR { return Clamp(texels, -limit, limit); };
+  const Float ux = bounded(duv_dx.x * width), vx = bounded(duv_dx.y * height), uy = bounded(duv_dy.x * width),
+              vy = bounded(duv_dy.y * height);
   const Float a = ux * ux + uy * uy, b = ux * vx + uy * vy, c = vx * vx + vy * vy;
   const Float determinant = Abs(ux * vy - uy * vx);
   const Float half_gap = Sqrt((a - c) * (a - c) * Float(0.25f) + b * b);

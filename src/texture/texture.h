@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "facet/image.h"
+#include "facet/render.h"
 #include "facet/scene.h"
 
 namespace facet {
@@ -37,7 +38,7 @@ struct TextureData {
 // linear light, of the area it covers, also where a size is odd. `mips`: false keeps level 0 alone.
 // Throws Error: OutOfMemory for pictures beyond 32768 texels a side or 2^27 texels, InvalidInput for pictures without
 // pixels, of other than 1 to 4 channels, or whose bytes do not fit their size.
-TextureData BuildTexture(const Image& image, TextureRole role, bool mips);
+TextureData BuildTexture(const Image& image, TextureRole role, bool mips, TexelBits bits = TexelBits::Mixed);
 
 // A use of a texture by a material.
 struct TextureSlot {

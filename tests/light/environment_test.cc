@@ -89,7 +89,7 @@ TEST(Environment, CentreIsPlusXAndThreeQuartersIsPlusZ) {
                {0.5, 0.25, {0.70710678, 0.70710678, 0}}};
   for (const auto& c : cases) {
     for (bool keep : {false, true}) {
-      const auto map = PrefilterEnvironment(lit_at(c.u, c.v), {keep, 512});
+      const auto map = PrefilterEnvironment(lit_at(c.u, c.v), {.keep_picture = keep, .max_size = 512});
       EXPECT_NEAR(lanes::SharpRadiance(*map, c.direction).x, 1.0, 1e-6) << c.u << " " << c.v;
       EXPECT_NEAR(lanes::SharpRadiance(*map, -c.direction).x, 0.0, 1e-6) << c.u << " " << c.v;
     }
@@ -110,7 +110,7 @@ TEST(Environment, RotationIsCounterClockwiseSeenFromAbove) {
 // The map is continuous over its folds and true to the picture.
 TEST(Environment, LevelZeroIsThePicture) {
   const auto radiance = [](Vec3<double> d) { return 1.0 + 0.5 * d.x - 0.3 * d.y + 0.2 * d.z + 0.4 * d.x * d.z; };
-  const auto map = PrefilterEnvironment(Paint(512, 256, radiance), {true, 512});
+  const auto map = PrefilterEnvironment(Paint(512, 256, radiance), {.keep_picture = true, .max_size = 512});
   for (Vec3<double> d : SomeDirections(3000)) {
     EXPECT_NEAR(lanes::PrefilteredRadiance(*map, d, 0.0).x, radiance(d), 0.002);
     EXPECT_NEAR(lanes::SharpRadiance(*map, d).x, radiance(d), 0.004);  // a pole's row stands for half a pixel around it
@@ -130,6 +130,30 @@ TEST(Environment, IrradianceOfAGradient) {
   for (Vec3<double> n : SomeDirections(300)) {
     EXPECT_NEAR(lanes::IrradianceOverPi(*map, n).x, 1.0 + 2.0 / 3.0 * (0.6 * n.x - 0.5 * n.z), 0.004);
   }
+}
+
+// A degree-2 sky is all that nine numbers hold; of f = 2 + d.a + d.x d.y + d.z^2 the cosine lobe keeps 2/3 of degree 1 and
+// 1/4 of degree 2.
+TEST(Environment, IrradianceByHarmonicsIsExactUpToDegreeTwo) {
+  const auto map = PrefilterEnvironment(
+      Paint(256, 128, [](Vec3<double> d) { return 2.0 + 0.6 * d.x - 0.5 * d.y + d.x * d.y + d.z * d.z; }),
+      {.irradiance = IrradianceMethod::SphericalHarmonics});
+  for (Vec3<double> n : SomeDirections(300)) {
+    const double degree2 = n.x * n.y + (n.z * n.z - 1.0 / 3.0);
+    const double expected = 2.0 + 1.0 / 3.0 + 2.0 / 3.0 * (0.6 * n.x - 0.5 * n.y) + 0.25 * degree2;
+    // As above 0.4 % of the mean, for the source's 64 x 64 texels and reading between the map's 32 x 32.
+    EXPECT_NEAR(lanes::IrradianceOverPi(*map, n).x, expected, 0.004 * 2.33);
+    EXPECT_NEAR(lanes::IrradianceOverPi(*map, n).z, 3.0 * expected, 0.012 * 2.33);
+  }
+}
+
+// A small sun: what the harmonics ring below zero never becomes negative light.
+TEST(Environment, IrradianceByHarmonicsIsNeverNegative) {
+  const auto map = PrefilterEnvironment(Paint(256, 128, [](Vec3<double> d) { return d.y > 0.99 ? 1000.0 : 0.0; }),
+                                        {.irradiance = IrradianceMethod::SphericalHarmonics});
+  double smallest = 1.0;
+  for (Vec3<double> n : SomeDirections(300)) smallest = std::min(smallest, lanes::IrradianceOverPi(*map, n).x);
+  EXPECT_EQ(smallest, 0.0);
 }
 
 // Brute force over incoming directions of L n_dot_l D(h), view = normal = reflection (Karis, 2013).
@@ -203,7 +227,7 @@ TEST(Environment, HostilePixelsAreRepaired) {
   const float inf = std::numeric_limits<float>::infinity();
   const float bad[] = {std::nanf(""), inf, -inf, -1.0f, 3.4e38f};
   for (int i = 0; i < 5; ++i) image.As<float>()[300 * (i + 1)] = bad[i];
-  const auto map = PrefilterEnvironment(image, {true, 512});
+  const auto map = PrefilterEnvironment(image, {.keep_picture = true, .max_size = 512});
   EXPECT_EQ(map->repaired_values, 5u);
   for (float texel : map->texels) ASSERT_TRUE(std::isfinite(texel) && texel >= 0.0f);
 }
@@ -212,7 +236,7 @@ TEST(Environment, AnySizeAndType) {
   for (auto [width, height] : {std::pair{1, 1}, {2, 1}, {3, 5}, {7, 300}, {2048, 16}}) {
     Image image{width, height, 4, ChannelType::U8, Encoding::Srgb, {}};
     image.bytes.assign(image.PixelCount() * 4, std::byte(255));
-    const auto map = PrefilterEnvironment(image, {true, 1024});
+    const auto map = PrefilterEnvironment(image, {.keep_picture = true, .max_size = 1024});
     for (Vec3<double> d : SomeDirections(50)) {
       EXPECT_NEAR(lanes::SharpRadiance(*map, d).x, 1.0, 1e-5);
       EXPECT_NEAR(lanes::PrefilteredRadiance(*map, d, 0.3).y, 1.0, 1e-5);
@@ -250,7 +274,7 @@ TEST(Studio, IsPositiveAndOfMeanOne) {
   EXPECT_NEAR(sum / weight, 0.65, 1e-6);
   EXPECT_EQ(StudioEnvironment().get(), StudioEnvironment().get());
   EXPECT_EQ(StudioEnvironment()->picture_data, nullptr);
-  EXPECT_NE(StudioEnvironment(true)->picture_data, nullptr);
+  EXPECT_NE(StudioEnvironment({.keep_picture = true})->picture_data, nullptr);
   // Light comes from above and from the camera's side.
   const auto map = StudioEnvironment();
   const double up = lanes::IrradianceOverPi(*map, Vec3<double>{0, 1, 0}).x;

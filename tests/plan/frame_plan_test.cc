@@ -50,6 +50,21 @@ TEST(FramePlan, WhatIsLeftOutHasAReason) {
   }
 }
 
+TEST(FramePlan, MipFilterIsABoundOnWhatSamplersAskFor) {
+  for (const MipFilter asked : {MipFilter::None, MipFilter::Nearest, MipFilter::Linear}) {
+    for (const MipFilter bound : {MipFilter::None, MipFilter::Nearest, MipFilter::Linear}) {
+      Scene scene = LitSphere();
+      scene.materials[0].base_color_texture.texture = WhiteTexture(scene, 8);
+      scene.textures[0].sampler.mip = asked;
+      RenderSettings settings = StudioSettings();
+      settings.mip_filter = bound;
+      const FramePlan plan = PlanOf(scene, settings);
+      EXPECT_EQ(plan.materials[0].frame.base_color_texture.sampler.mip, std::min(asked, bound));
+      EXPECT_EQ(plan.textures[0].mips, std::min(asked, bound) != MipFilter::None);
+    }
+  }
+}
+
 TEST(FramePlan, EachFeatureIsThereWhenSomethingNeedsIt) {
   const auto with = [&](const std::function<void(Scene&, RenderSettings&)>& change) {
     Scene scene = LitSphere();

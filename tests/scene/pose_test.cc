@@ -210,6 +210,21 @@ TEST(Pose, MakesNoTangentsThatNobodyReads) {
   }
 }
 
+TEST(Pose, MakesTangentsAnewWhereAsked) {
+  Primitive primitive = Triangle();
+  primitive.normals.assign(3, {0, 0, 1});
+  primitive.tex_coords = {{{0, 0}, {1, 0}, {0, 1}}};
+  primitive.tangents.assign(3, {0, 1, 0, 1});  // not what the UVs say
+  primitive.material = 0;
+  Scene scene = SceneOf(primitive);
+  AddNormalMap(scene);
+  PoseSettings settings;
+  EXPECT_EQ(Pose(scene, settings).drawables[0].geometry->tangents[0].y, 1.0f);
+  settings.generate_tangents = true;
+  const PosedScene posed = Pose(scene, settings);
+  EXPECT_EQ(posed.drawables[0].geometry->tangents[0], glm::vec4(1, 0, 0, posed.drawables[0].geometry->tangents[0].w));
+}
+
 TEST(Pose, CompletesWhatNormalMapsNeed) {
   Primitive strip;
   strip.topology = Topology::TriangleStrip;

@@ -158,6 +158,26 @@ TEST(BuildTexture, EightBitDataIsKeptToTheBit) {
   }
 }
 
+TEST(BuildTexture, BitsAreWhatIsAskedFor) {
+  const Image image = RandomImage(32, 32, 4, ChannelType::U8, 10);
+  for (const TextureRole role : {TextureRole::Color, TextureRole::Data}) {
+    const TextureData eight = BuildTexture(image, role, true, TexelBits::Eight),
+                      sixteen = BuildTexture(image, role, true, TexelBits::Sixteen);
+    EXPECT_EQ(sixteen.Bytes(), 2 * eight.Bytes());
+    for (int level = 0; level < eight.levels; ++level) {
+      for (int y = 0; y < eight.level_height[level]; ++y) {
+        for (int x = 0; x < eight.level_width[level]; ++x) {
+          for (std::size_t c = 0; c < 4; ++c) {
+            ASSERT_NEAR(ReadTexel(eight, level, x, y)[c], ReadTexel(sixteen, level, x, y)[c], 0.5 / 255 + 0.5 / 65535);
+          }
+        }
+      }
+    }
+    const TextureData mixed = BuildTexture(image, role, true, TexelBits::Mixed);
+    EXPECT_EQ(mixed.words, role == TextureRole::Color ? sixteen.words : eight.words);
+  }
+}
+
 TEST(BuildTexture, FloatsOutOfRangeAreClamped) {
   Image image = RandomImage(4, 1, 1, ChannelType::F32, 1);
   const float values[4] = {-3.0f, 7.0f, std::numeric_limits<float>::quiet_NaN(),

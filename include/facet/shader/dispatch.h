@@ -19,6 +19,8 @@
 // Only pointers, references and scalars cross the dispatch. Lambdas in a kernel need HWY_ATTR.
 #pragma once
 
+#include "facet/shader/arithmetic_check.h"
+
 namespace facet {
 
 // Highway's names. Neon stands for the best target of 64-bit Arm.

@@ -1,0 +1,133 @@
+#include "cli/check_command.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include "cli/console.h"
+#include "cli/output_path.h"
+#include "facet/error.h"
+#include "facet/version.h"
+#include "image/codec.h"
+#include "report/markup.h"
+
+namespace facet::cli {
+namespace {
+
+constexpr int kPassed = 0, kDiffers = 1, kFailed = 2;
+
+constexpr Verdict kVerdicts[] = {Verdict::Passed, Verdict::Within, Verdict::Updated, Verdict::Failed, Verdict::Error};
+
+// Characters of UTF-8.
+std::size_t Length(const std::string& text) {
+  return static_cast<std::size_t>(
+      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
+}
+
+std::string Padded(std::string text, std::size_t length) {
+  const std::size_t now = Length(text);
+  if (now < length) text.append(length - now, ' ');
+  return text;
+}
+
+std::string Table(const CheckReport& report) {
+  std::size_t longest = 0;
+  for (const CheckedEntry& entry : report.entries) longest = std::max(longest, Length(entry.name));
+  std::string text;
+  for (const CheckedEntry& entry : report.entries) {
+    text += Padded(entry.name, std::min<std::size_t>(longest, 48)) + "  " + Padded(NameOf(entry.verdict), 7) + "  " +
+            SecondsText(entry.seconds) + " s" + (entry.message.empty() ? "" : "  " + entry.message) + "\n";
+  }
+  text += std::to_string(report.entries.size()) + (report.entries.size() == 1 ? " entry" : " entries");
+  const char* separator = ": ";
+  for (const Verdict verdict : kVerdicts) {
+    if (report.Count(verdict) == 0) continue;
+    text += std::exchange(separator, ", ") + std::to_string(report.Count(verdict)) + " " + NameOf(verdict);
+  }
+  return text + "; " + SecondsText(report.seconds) + " s\n";
+}
+
+// Infinite numbers become null.
+std::string Json(const CheckReport& report) {
+  using Ordered = nlohmann::ordered_json;
+  Ordered json = {{"facet", Version()}, {"manifest", report.manifest}, {"seconds", report.seconds}};
+  for (const Verdict verdict : kVerdicts) json["counts"][NameOf(verdict)] = report.Count(verdict);
+  json["problems"] = report.problems;
+  json["entries"] = Ordered::array();
+  for (const CheckedEntry& entry : report.entries) {
+    Ordered e = {{"name", entry.name},
+                 {"place", entry.place},
+                 {"verdict", NameOf(entry.verdict)},
+                 {"seconds", entry.seconds},
+                 {"message", entry.message},
+                 {"film", entry.film ? Ordered(ToHex(*entry.film)) : Ordered()},
+                 {"expected_film", entry.expected_film ? Ordered(ToHex(*entry.expected_film)) : Ordered()},
+                 {"difference", nullptr},
+                 {"warnings", entry.warnings}};
+    if (const std::optional<ImageDifference>& d = entry.difference) {
+      e["difference"] = {{"equal", d->equal},         {"max_difference", d->max_difference},
+                         {"max_x", d->max_x},         {"max_y", d->max_y},
+                         {"rmse", d->rmse},           {"differing_pixels", d->differing_pixels},
+                         {"psnr_db", d->psnr_db},     {"ssim", d->ssim},
+                         {"flip_mean", d->flip_mean}, {"flip_max", d->flip_max}};
+    }
+    json["entries"].push_back(std::move(e));
+  }
+  return json.dump(2, ' ', false, Ordered::error_handler_t::replace) + "\n";
+}
+
+void WriteText(const std::filesystem::path& path, const std::string& text) {
+  WriteFileWhole(path, std::as_bytes(std::span(text)));
+}
+
+void WritePictures(const CheckReport& report, const std::filesystem::path& folder) {
+  const auto write = [&](const std::string& name, const std::vector<std::byte>& png) {
+    if (!png.empty()) WriteFileWhole(folder / name, png);
+  };
+  for (const CheckedEntry& entry : report.entries) {
+    if (entry.verdict != Verdict::Failed) continue;
+    write(entry.name + ".actual.png", entry.actual);
+    write(entry.name + ".difference.png", entry.heat_map);
+  }
+}
+
+int Check(const CheckCommandOptions& options) {
+  if (options.output) {
+    std::error_code failure;
+    std::filesystem::create_directories(*options.output, failure);
+    if (failure) throw Error(ErrorCode::OutputFailed, failure.message(), options.output->string());
+  }
+  if (options.html) CheckWritable(*options.html);
+  if (options.junit) CheckWritable(*options.junit);
+  CheckOptions check = options.check;
+  check.pictures = options.html || options.output;
+  const CheckReport report = CheckManifest(options.manifest, check);
+  PrintOutput(options.json ? Json(report) : Table(report));
+  for (const std::string& problem : report.problems) PrintError(problem);
+  for (const CheckedEntry& entry : report.entries) {
+    if (entry.verdict == Verdict::Error) PrintError(entry.place + ": " + entry.message);
+  }
+  if (options.output) WritePictures(report, *options.output);
+  if (options.html) WriteText(*options.html, CheckHtml(report));
+  if (options.junit) WriteText(*options.junit, JUnitXml(report));
+  if (!report.problems.empty() || report.Count(Verdict::Error) > 0) return kFailed;
+  return report.Count(Verdict::Failed) > 0 ? kDiffers : kPassed;
+}
+
+}  // namespace
+
+int RunCheck(const CheckCommandOptions& options) {
+  try {
+    return Check(options);
+  } catch (const Error& error) {
+    PrintError(error.what());
+  } catch (const std::exception& error) {
+    PrintError(std::string("a defect of facet: ") + error.what());
+  }
+  return kFailed;
+}
+
+}  // namespace facet::cli

@@ -1,0 +1,20 @@
+// The numbers of an error report in words.
+#pragma once
+
+#include <string>
+
+#include "facet/report.h"
+
+namespace facet {
+
+// "max-anisotropy=1 samples=2"; "the settings asked for" where nothing is changed.
+std::string SettingsWords(const SettingsText& changed);
+
+// Three digits and a unit: "41.3 ms", "1.2 GiB"; "not known" for what is no number.
+std::string TimeWords(double seconds);
+std::string BytesWords(double bytes);
+
+// Three digits: "0.0312"; "not known" for what is no number.
+std::string ErrorWords(double error);
+
+}  // namespace facet

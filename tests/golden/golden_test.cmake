@@ -1,0 +1,20 @@
+# facet check of goldens.json, or of corpus.json.in with the corpus' folder put in.
+set(manifest ${CMAKE_CURRENT_LIST_DIR}/${MANIFEST}.json)
+if(MANIFEST STREQUAL "corpus")
+  set(CORPUS $ENV{FACET_CORPUS})
+  if(NOT CORPUS)
+    get_filename_component(CORPUS ${CMAKE_CURRENT_LIST_DIR}/../../../shared/corpus ABSOLUTE)
+  endif()
+  if(NOT EXISTS ${CORPUS}/models)
+    message("SKIPPED: there is no corpus of sample models at ${CORPUS}; FACET_CORPUS names another folder")
+    return()
+  endif()
+  set(manifest ${OUTPUT}/corpus.json)
+  configure_file(${CMAKE_CURRENT_LIST_DIR}/corpus.json.in ${manifest} @ONLY)
+endif()
+execute_process(
+  COMMAND ${PROGRAM} check ${manifest} --html ${OUTPUT}/${MANIFEST}.html --junit ${OUTPUT}/${MANIFEST}.xml
+  RESULT_VARIABLE code OUTPUT_VARIABLE out ERROR_VARIABLE err)
+if(NOT code EQUAL 0)
+  message(FATAL_ERROR "facet check ${manifest}: exit code ${code}\n${out}${err}see ${OUTPUT}/${MANIFEST}.html")
+endif()
