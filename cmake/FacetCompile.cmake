@@ -1,4 +1,5 @@
 # How every target of facet is compiled. facet_room() makes one library per folder of src/.
+include(FacetArithmeticCheck)
 
 set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
@@ -20,6 +21,10 @@ add_library(facet_arithmetic INTERFACE)
 add_library(facet::arithmetic ALIAS facet_arithmetic)
 set_target_properties(facet_arithmetic PROPERTIES EXPORT_NAME arithmetic)
 target_compile_options(facet_arithmetic INTERFACE -ffp-contract=off -fno-fast-math)
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(aarch64|arm64)")
+  # Float{} is zero: GCC must not drop that because Highway's vectors have a constructor here, one that sets nothing.
+  target_compile_options(facet_arithmetic INTERFACE $<$<CXX_COMPILER_ID:GNU>:-flifetime-dse=1>)
+endif()
 target_compile_features(facet_arithmetic INTERFACE cxx_std_20)
 if(FACET_SCALAR_ONLY)
   target_compile_definitions(facet_arithmetic INTERFACE HWY_COMPILE_ONLY_SCALAR FACET_SCALAR_ONLY)

@@ -80,11 +80,11 @@ struct RenderSettings {
   int height = 1024;  // 1 to 16384
   int samples = 4;    // coverage samples per pixel: 1, 2, 4 or 8
   int threads = 0;    // 0: one per core
-  int max_anisotropy = 8;                      // 1 to 16
-  MipFilter mip_filter = MipFilter::Linear;    // the most that samplers get
+  int max_anisotropy = 8;                    // 1 to 16
+  MipFilter mip_filter = MipFilter::Linear;  // the most that samplers get
   TexelBits texels = TexelBits::Mixed;
-  int environment_size = 1024;                 // most texels along the sharpest map of the environment: 64 to 1024, a power of two
-  int environment_samples = 48;                // of the narrowest lobe it is filtered with; wider ones take more: 6 to 768
+  int environment_size = 1024;   // most texels along the environment's sharpest map: 64 to 1024, a power of two
+  int environment_samples = 48;  // of the narrowest lobe it is filtered with, wider ones take more: 6 to 768
   IrradianceMethod irradiance = IrradianceMethod::Convolution;
   TangentSource tangents = TangentSource::File;
   int tile_size = 32;      // 8, 16, 32 or 64: never changes the picture

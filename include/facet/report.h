@@ -19,8 +19,8 @@ using SettingsText = std::map<std::string, std::string>;
 struct ReportSettings {
   double budget_seconds = 60.0;  // wall clock, for the reference and all points; 1 to 86400
   int threads = 0;               // 0: one per core
-  // Called now and then from the calling thread with the share of the budget that is used and what is being done. May be
-  // empty.
+  // Called now and then from the calling thread with the share of the budget that is used and what is being done. May
+  // be empty.
   std::function<void(double, const std::string&)> progress;
 };
 
@@ -41,7 +41,7 @@ struct ReportPoint {
   double seconds_high = 0.0;   // the slowest
   std::size_t peak_bytes = 0;  // what the process grew by at most while rendering; 0 where it is not known
   FilmError error;
-  bool pareto = false;  // no other point has both less error (relative RMSE) and less time
+  bool pareto = false;                   // no other point has both less error (relative RMSE) and less time
   std::vector<std::byte> picture_png;    // the developed picture
   std::vector<std::byte> error_map_png;  // FLIP against the reference, as a heat map
 };
@@ -66,13 +66,14 @@ struct ErrorReport {
   int width = 0, height = 0;
   SettingsText settings;  // every option, defaults spelled out
   struct Reference {
-    int samples = 0;               // a pixel and batch
+    int samples = 0;  // a pixel and batch
     int batches = 0;
     double seconds = 0.0;
-    double rms_error = 0.0;        // what is left of its own error, as it estimates it
+    double rms_error = 0.0;  // what is left of its own error, as it estimates it
     double relative_error = 0.0;
     std::vector<std::string> notes;
   } reference;
+  std::vector<std::string> warnings;  // of loading and rendering; not stored
   // The same algorithm on lanes of floats and in double: the rounding error, apart from the approximations'.
   std::optional<FilmError> rounding;
   std::vector<ReportPoint> points;  // points[0] has the settings asked for
@@ -105,15 +106,16 @@ struct Bound {
   std::optional<double> max_seconds;        // > 0
 };
 
-// The point of a report that keeps the bound: the fastest one whose error is within, or the most exact one whose time is
-// within, or, under both, the fastest. None does: the nearest, and `kept` is false.
+// The point of a report that keeps the bound: the fastest one whose error is within, or the most exact one whose time
+// is within, or, under both, the fastest. None does: the nearest, and `kept` is false.
 struct Choice {
   std::size_t point = 0;  // index into ErrorReport::points
   bool kept = false;
   std::string why;  // one line, for people
 };
 
-// Throws Error(InvalidUsage) for bounds that are not positive numbers, or none; InvalidInput for a report without points.
+// Throws Error(InvalidUsage) for bounds that are not positive numbers, or none; InvalidInput for a report without
+// points.
 Choice ChoosePoint(const ErrorReport& report, const Bound& bound);
 
 }  // namespace facet

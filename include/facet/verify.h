@@ -5,8 +5,10 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "facet/digest.h"
+#include "facet/load.h"
 
 namespace facet {
 
@@ -14,6 +16,7 @@ struct VerifySettings {
   // The picture that lit the scene. None: the file of the name that the picture gives, in the scene's folder.
   std::optional<std::filesystem::path> environment;
   int threads = 0;  // 0: one per core
+  LoadOptions load;
 };
 
 // What VerifyPicture() finds.
@@ -23,10 +26,11 @@ struct Verification {
   bool intact = false;      // the file's pixels are those that facet wrote
   bool film_equal = false;  // the scene gives the film that it gave then, to the last bit
   Digest film_before, film_now;
-  std::size_t differing_pixels = 0;  // of the file, against those rendered now
-  std::size_t pixels = 0;            // in all
-  double max_difference = 0.0;       // of one channel, in [0, 1]
-  int max_x = 0, max_y = 0;          // where that is
+  std::vector<std::string> warnings;  // of loading and rendering
+  std::size_t differing_pixels = 0;   // of the file, against those rendered now
+  std::size_t pixels = 0;             // in all
+  double max_difference = 0.0;        // of one channel, in [0, 1]
+  int max_x = 0, max_y = 0;           // where that is
   int left = 0, top = 0, right = -1,
       bottom = -1;  // the smallest rectangle, both ends included, around the differing pixels
 

@@ -4,6 +4,8 @@
 #include <cfenv>
 #include <cstdint>
 
+#include "facet/shader/arithmetic_check.h"
+
 #if defined(__x86_64__)
 #include <immintrin.h>
 #endif
@@ -16,13 +18,21 @@ class FloatEnvironment {
  public:
 #if defined(__x86_64__)
   FloatEnvironment() : saved_(_mm_getcsr()) {
-    constexpr unsigned kAllMasked = 0x1F80;  // the state that a process starts with
+    constexpr unsigned kAllMasked = 0x1F80;  // the states that a process starts with
+    constexpr std::uint16_t kX87AllMasked = 0x037F;
     _mm_setcsr(kAllMasked);
+    // The C library's strtod asks x87's control word which way to round.
+    asm volatile("fnstcw %0" : "=m"(saved_x87_));
+    asm volatile("fldcw %0" : : "m"(kX87AllMasked));
   }
-  ~FloatEnvironment() { _mm_setcsr(saved_); }
+  ~FloatEnvironment() {
+    _mm_setcsr(saved_);
+    asm volatile("fldcw %0" : : "m"(saved_x87_));
+  }
 
  private:
   unsigned saved_;
+  std::uint16_t saved_x87_;
 #elif defined(__aarch64__)
   FloatEnvironment() {
     asm volatile("mrs %0, fpcr" : "=r"(saved_));

@@ -94,7 +94,9 @@ void WritePictures(const CheckReport& report, const std::filesystem::path& folde
   }
 }
 
-int Check(const CheckCommandOptions& options) {
+}  // namespace
+
+int RunCheck(const CheckCommandOptions& options) {
   if (options.output) {
     std::error_code failure;
     std::filesystem::create_directories(*options.output, failure);
@@ -108,6 +110,7 @@ int Check(const CheckCommandOptions& options) {
   PrintOutput(options.json ? Json(report) : Table(report));
   for (const std::string& problem : report.problems) PrintError(problem);
   for (const CheckedEntry& entry : report.entries) {
+    for (const std::string& warning : entry.warnings) PrintWarning(entry.name + ": " + warning);
     if (entry.verdict == Verdict::Error) PrintError(entry.place + ": " + entry.message);
   }
   if (options.output) WritePictures(report, *options.output);
@@ -115,19 +118,6 @@ int Check(const CheckCommandOptions& options) {
   if (options.junit) WriteText(*options.junit, JUnitXml(report));
   if (!report.problems.empty() || report.Count(Verdict::Error) > 0) return kFailed;
   return report.Count(Verdict::Failed) > 0 ? kDiffers : kPassed;
-}
-
-}  // namespace
-
-int RunCheck(const CheckCommandOptions& options) {
-  try {
-    return Check(options);
-  } catch (const Error& error) {
-    PrintError(error.what());
-  } catch (const std::exception& error) {
-    PrintError(std::string("a defect of facet: ") + error.what());
-  }
-  return kFailed;
 }
 
 }  // namespace facet::cli

@@ -17,7 +17,8 @@ struct CheckCommandOptions {
 };
 
 // Prints a table of the entries on standard output, and errors on standard error, one line each. Returns the exit code:
-// 0 when all entries passed, are within their thresholds or were updated, 1 when some failed, 2 on any error.
+// 0 when all entries passed, are within their thresholds or were updated, 1 when some failed, 2 when some could not be
+// decided. Throws Error where none could.
 int RunCheck(const CheckCommandOptions& options);
 
 }  // namespace facet::cli

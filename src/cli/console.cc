@@ -21,6 +21,8 @@ void PrintLine(std::string_view prefix, std::string_view text) {
 
 void PrintError(std::string_view text) { PrintLine("facet: ", text); }
 
+void PrintNote(std::string_view text) { PrintLine("facet: note: ", text); }
+
 void PrintWarning(std::string_view text) { PrintLine("facet: warning: ", text); }
 
 void PrintOutput(std::string_view text) {

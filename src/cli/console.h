@@ -5,8 +5,9 @@
 
 namespace facet::cli {
 
-// "facet: TEXT" and "facet: warning: TEXT" on standard error, as one line.
+// "facet: TEXT", "facet: warning: TEXT" and "facet: note: TEXT" on standard error, as one line.
 void PrintError(std::string_view text);
+void PrintNote(std::string_view text);
 void PrintWarning(std::string_view text);
 
 // Writes to standard output and flushes. Throws Error(OutputFailed) when that is closed or full.

@@ -17,7 +17,7 @@
 namespace facet::cli {
 namespace {
 
-constexpr int kWithin = 0, kDifferent = 1, kFailed = 2;
+constexpr int kWithin = 0, kDifferent = 1;
 
 ImageDifference Compare(const DiffOptions& options) {
   const Image a = LoadImage(options.a), b = LoadImage(options.b);
@@ -89,7 +89,9 @@ std::string Json(const DiffOptions& options, const ImageDifference& d, const std
   return json.dump(2, ' ', false, Ordered::error_handler_t::replace) + "\n";
 }
 
-int Diff(const DiffOptions& options) {
+}  // namespace
+
+int RunDiff(const DiffOptions& options) {
   if (options.output) {
     if (FormatOf(*options.output).linear) {
       throw Error(ErrorCode::InvalidUsage, "a heat map is for displays, not linear light", "-o", "write .png");
@@ -103,19 +105,6 @@ int Diff(const DiffOptions& options) {
   }
   PrintOutput(options.json ? Json(options, difference, broken) : Table(options, difference, broken));
   return broken.empty() ? kWithin : kDifferent;
-}
-
-}  // namespace
-
-int RunDiff(const DiffOptions& options) {
-  try {
-    return Diff(options);
-  } catch (const Error& error) {
-    PrintError(error.what());
-  } catch (const std::bad_alloc&) {
-    PrintError("out of memory");
-  }
-  return kFailed;
 }
 
 }  // namespace facet::cli

@@ -17,7 +17,7 @@ struct DiffOptions {
 };
 
 // Prints the measures to standard output. Returns the exit code: 0 when the pictures are equal, or within all
-// thresholds where there are some; 1 when they are not; 2 on any Error, after one line on standard error.
+// thresholds where there are some; 1 when they are not. Throws Error.
 int RunDiff(const DiffOptions& options);
 
 }  // namespace facet::cli

@@ -17,7 +17,11 @@ using Line = std::pair<const char*, std::optional<Digest>>;
 
 std::vector<Line> Digests(const HashOptions& options) {
   const RenderInputs inputs = LoadInputs(options.input, options.request, options.load);
-  const Film film = Render(inputs.loaded.scene, inputs.settings);
+  RenderStats stats;
+  const Film film = Render(inputs.loaded.scene, inputs.settings, &stats);
+  for (const auto& warnings : {inputs.loaded.report.warnings, stats.warnings}) {
+    for (const std::string& warning : warnings) PrintWarning(warning);
+  }
   const SceneDigests scene = HashScene(inputs.loaded.scene);
   return {{"film", HashFilm(film)},
           {"pixels", HashImage(Develop(film, options.request.display, options.request.type))},

@@ -12,6 +12,7 @@
 #include "cli/info_command.h"
 #include "cli/options.h"
 #include "cli/render_command.h"
+#include "cli/report_command.h"
 #include "cli/verify_command.h"
 #include "facet/error.h"
 
@@ -51,6 +52,7 @@ struct Run {
   int operator()(const TextRequest& request) const { return PrintOutput(request.text), 0; }
   int operator()(const RenderOptions& options) const { return RunRender(options), 0; }
   int operator()(const InfoOptions& options) const { return RunInfo(options), 0; }
+  int operator()(const ReportOptions& options) const { return RunReport(options), 0; }
   int operator()(const HashOptions& options) const { return RunHash(options), 0; }
   int operator()(const VerifyOptions& options) const {
     return Compared([&] { return RunVerify(options); });

@@ -84,6 +84,23 @@ void AddRequest(CLI::App& app, RenderRequest& request, LoadOptions& load) {
       });
 }
 
+void AddBound(CLI::App& app, RenderOptions& options) {
+  const std::string group = "Chosen by error or time";
+  Add(app, group, "--max-error", "X", "Take the fastest approximations whose relative\nerror is at most X, 1e-6 to 10",
+      [&](const std::string& text) {
+        options.bound.max_relative_rmse = ParseNumber("--max-error", text, {1e-6, 10.0});
+      });
+  Add(app, group, "--max-time", "TIME", "Take the most exact ones that render within TIME,\nsuch as 200ms",
+      [&](const std::string& text) {
+        options.bound.max_seconds = ParseDuration("--max-time", text, {1e-4, 3600.0});
+      });
+  Add(app, group, "--report", "FILE", "Choose from what facet report wrote as .json\n[measured first]",
+      [&](const std::string& text) { options.report = text; });
+  Add(app, group, "--budget", "TIME", "For measuring, 1s to 24h [30s]", [&](const std::string& text) {
+    options.budget_seconds = ParseDuration("--budget", text, {1.0, 86400.0});
+  });
+}
+
 void AddMessages(CLI::App& app, RenderOptions& options) {
   const std::string group = "Messages";
   const std::string stats_description =
@@ -135,6 +152,7 @@ CLI::App& AddRender(CLI::App& program, RenderOptions& options) {
       [&](const std::string& text) { options.output = text; })
       ->required();
   AddRequest(app, options.request, options.load);
+  AddBound(app, options);
   AddMessages(app, options);
   page.End("Messages");
   return app;
@@ -168,6 +186,8 @@ CLI::App& AddVerify(CLI::App& program, VerifyOptions& options) {
   Add(app, "Options", "--environment", "FILE",
       "The picture that lit the scene\n[the file of that name in the scene's folder]",
       [&](const std::string& text) { options.environment = text; });
+  AddFlag(app, "Options", "--ignore-required-extensions", "As it was given to render",
+          options.ignore_required_extensions);
   AddThreads(app, "Options", options.threads);
   AddFlag(app, "Options", "--json", "As JSON with stable keys", options.json);
   page.End("Options");
@@ -236,6 +256,30 @@ CLI::App& AddCheck(CLI::App& program, CheckCommandOptions& options) {
   return app;
 }
 
+CLI::App& AddReport(CLI::App& program, ReportOptions& options) {
+  CommandPage page(program, "report", "Measure what each approximation costs in error and time", "IN -o FILE [OPTIONS]",
+                   std::string("The other options are those of render.\n\n") + kExitCodes);
+  CLI::App& app = page.app();
+  AddScene(app, options.input);
+  app.add_option_function<std::vector<std::string>>(
+         "-o,--output",
+         [&](const std::vector<std::string>& texts) { options.outputs.assign(texts.begin(), texts.end()); },
+         "Diagrams and pictures as .html; numbers as .json\nor .csv. May be given several times")
+      ->group("Output")
+      ->option_text("FILE")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->required();
+  Add(app, "Output", "--budget", "TIME", "For the reference and all points, 1s to 24h [60s]",
+      [&](const std::string& text) {
+        options.budget_seconds = ParseDuration("--budget", text, {1.0, 86400.0});
+      });
+  AddRequest(app, options.request, options.load);
+  AddFlag(app, "Messages", "-q,--quiet", "No progress; errors only", options.quiet);
+  page.End("Messages");
+  return app;
+}
+
 }  // namespace
 
 Command ParseCommandLine(int argc, const char* const* argv) {
@@ -253,12 +297,14 @@ Command ParseCommandLine(int argc, const char* const* argv) {
   VerifyOptions verify;
   DiffOptions diff;
   CheckCommandOptions check;
+  ReportOptions report;
   AddRender(program, render);
   const CLI::App& info_app = AddInfo(program, info);
   const CLI::App& hash_app = AddHash(program, hash);
   const CLI::App& verify_app = AddVerify(program, verify);
   const CLI::App& diff_app = AddDiff(program, diff);
   const CLI::App& check_app = AddCheck(program, check);
+  const CLI::App& report_app = AddReport(program, report);
 
   try {
     program.parse(argc, argv);
@@ -275,6 +321,7 @@ Command ParseCommandLine(int argc, const char* const* argv) {
   if (verify_app.parsed()) return verify;
   if (diff_app.parsed()) return diff;
   if (check_app.parsed()) return check;
+  if (report_app.parsed()) return report;
   return render;
 }
 

@@ -5,10 +5,12 @@
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "cli/check_command.h"
 #include "cli/diff_command.h"
 #include "facet/load.h"
+#include "facet/report.h"
 #include "report/render_request.h"
 
 namespace facet::cli {
@@ -20,6 +22,10 @@ struct RenderOptions {
   LoadOptions load;
   bool quiet = false;
   std::optional<bool> progress;  // none: when standard error is a terminal
+  // With either bound the approximations are chosen from a report: a stored one, or one that is made first.
+  Bound bound;
+  std::optional<std::filesystem::path> report;
+  std::optional<double> budget_seconds;  // for making it; 30 if none
   bool stats_table = false;
   std::optional<std::string> stats_json;  // a path, or "-" for standard output
 };
@@ -42,8 +48,19 @@ struct HashOptions {
 struct VerifyOptions {
   std::filesystem::path picture, input;
   std::optional<std::filesystem::path> environment;  // instead of the file beside the scene
+  bool ignore_required_extensions = false;
   int threads = 0;
   bool json = false;
+};
+
+// `facet report`.
+struct ReportOptions {
+  std::filesystem::path input;
+  std::vector<std::filesystem::path> outputs;  // .html, .json or .csv
+  RenderRequest request;
+  LoadOptions load;
+  double budget_seconds = 60.0;
+  bool quiet = false;
 };
 
 // --help and --version: a text for standard output.
@@ -51,8 +68,8 @@ struct TextRequest {
   std::string text;
 };
 
-using Command =
-    std::variant<TextRequest, RenderOptions, InfoOptions, HashOptions, VerifyOptions, DiffOptions, CheckCommandOptions>;
+using Command = std::variant<TextRequest, RenderOptions, InfoOptions, HashOptions, VerifyOptions, DiffOptions,
+                             CheckCommandOptions, ReportOptions>;
 
 // Throws Error(InvalidUsage).
 Command ParseCommandLine(int argc, const char* const* argv);

@@ -11,6 +11,7 @@
 #include "cli/console.h"
 #include "cli/output_path.h"
 #include "cli/progress.h"
+#include "cli/report_command.h"
 #include "cli/stats_output.h"
 #include "facet/error.h"
 #include "facet/version.h"
@@ -89,8 +90,19 @@ Film RenderWithProgress(const Scene& scene, const RenderOptions& options, Render
 }
 
 void RenderToFile(RenderOptions& options) {
-  Stopwatch total, stage;
   Reconcile(options);
+  if (options.bound.max_relative_rmse || options.bound.max_seconds) {
+    const Choice choice = ChooseApproximations(options);
+    if (!choice.kept) {
+      PrintWarning(choice.why);
+    } else if (!options.quiet) {
+      PrintNote(choice.why);
+    }
+  } else if (options.report || options.budget_seconds) {
+    throw Error(ErrorCode::InvalidUsage, "there is no bound to choose by", options.report ? "--report" : "--budget",
+                "add --max-error or --max-time");
+  }
+  Stopwatch total, stage;
   const RenderRequest& request = options.request;
   CommandStats stats;
   stats.input = options.input.string();

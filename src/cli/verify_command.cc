@@ -51,8 +51,10 @@ std::string Json(const Verification& v) {
 }  // namespace
 
 int RunVerify(const VerifyOptions& options) {
-  const Verification verification =
-      VerifyPicture(options.picture, options.input, {options.environment, options.threads});
+  VerifySettings settings{options.environment, options.threads, {}};
+  settings.load.ignore_required_extensions = options.ignore_required_extensions;
+  const Verification verification = VerifyPicture(options.picture, options.input, settings);
+  for (const std::string& warning : verification.warnings) PrintWarning(warning);
   PrintOutput(options.json ? Json(verification) : Text(verification));
   return verification.Equal() ? 0 : 1;
 }

@@ -31,8 +31,8 @@ int MakePlanes(const FrameView& view, std::int32_t outcodes, Plane* planes) {
   };
   int count = 0;
   for (const Plane& plane : all) {
-    // A vertex that the near plane makes may lie outside the guard band though no vertex of the primitive did.
-    if ((outcodes & plane.bit) != 0 || ((outcodes & kOutNear) != 0 && plane.bit > kOutFar)) planes[count++] = plane;
+    // A plane that no vertex lies beyond stays uncrossed: what other planes make lies on edges between the vertices.
+    if ((outcodes & plane.bit) != 0) planes[count++] = plane;
   }
   return count;
 }

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <string>
 
+#include "base/float_environment.h"
 #include "base/check.h"
 #include "base/parallel.h"
 #include "facet/error.h"
@@ -31,6 +32,7 @@ float LinearBackground(float encoded) {
 }  // namespace
 
 Image Develop(const Film& film, const DisplaySettings& settings, ChannelType type) {
+  const FloatEnvironment pinned;
   FACET_CHECK_OP(film.width, >=, 0);
   FACET_CHECK_OP(film.height, >=, 0);
   Image image;

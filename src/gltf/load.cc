@@ -2,6 +2,7 @@
 
 #include <new>
 
+#include "base/float_environment.h"
 #include "gltf/animation.h"
 #include "gltf/container.h"
 #include "gltf/extensions.h"
@@ -101,6 +102,7 @@ LoadedScene Load(const std::filesystem::path& path, const LoadOptions& options) 
 }  // namespace gltf
 
 LoadedScene LoadGltf(const std::filesystem::path& path, const LoadOptions& options) {
+  const FloatEnvironment pinned;  // the C library reads decimal numbers by the host's rounding mode
   try {
     return gltf::Load(path, options);
   } catch (const std::bad_alloc&) {

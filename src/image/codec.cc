@@ -9,6 +9,7 @@
 #include <cstring>
 #include <new>
 
+#include "base/float_environment.h"
 #include "facet/error.h"
 #include "facet/load.h"
 #include "image/jpeg.h"
@@ -145,6 +146,9 @@ Image DecodeImage(std::span<const std::byte> bytes, const std::string& name) {
   return DecodeWithOiio(bytes, name);
 }
 
-Image LoadImage(const std::filesystem::path& path) { return DecodeImage(ReadFileWhole(path), path.string()); }
+Image LoadImage(const std::filesystem::path& path) {
+  const FloatEnvironment pinned;
+  return DecodeImage(ReadFileWhole(path), path.string());
+}
 
 }  // namespace facet

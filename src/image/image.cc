@@ -33,7 +33,8 @@ std::shared_ptr<const ImageSource> MakeImageSource(Image image, std::string name
 Digest HashImage(const Image& image) {
   Sha256 hash;
   hash.Add("facet image " + std::to_string(image.width) + " " + std::to_string(image.height) + " " +
-           std::to_string(image.channels) + " " + std::to_string(8 * SizeOf(image.type)) + "\n");
+           std::to_string(image.channels) + " " + std::to_string(8 * SizeOf(image.type)) +
+           (image.encoding == Encoding::Srgb ? " srgb\n" : " linear\n"));
   hash.Add(std::span(image.bytes));
   return hash.Finish();
 }

@@ -21,21 +21,20 @@ HWY_INLINE Vec3<T> PrefilteredRadiance(const EnvironmentMap& map, Vec3<T> direct
   const float last = static_cast<float>(EnvironmentMap::kLevels - 1);
   const TablePosition<T> at = PositionInTable(perceptual_roughness * T(last), last);
   const Vec2<T> uv = OctahedronFromDirection(direction);
-  const auto level = [&](IndexOf<T> k) HWY_ATTR {
+  const auto level = [&](IntOf<T> k) HWY_ATTR {
     const T size = Fetch<T>(map.level_size, k);
-    const IndexOf<T> row = TruncateToIndex(size + T(1.0f)) * IndexOf<T>(4);
-    return SampleOctahedron<T>(map.texel_data, size, row, FetchIndex(map.level_offset, k), uv);
+    const IntOf<T> row = TruncateToInt(size + T(1.0f)) * IntOf<T>(4);
+    return SampleOctahedron<T>(map.texel_data, size, row, FetchInt(map.level_offset, k), uv);
   };
-  return Mix(level(at.index), level(at.index + IndexOf<T>(1)), at.fraction);
+  return Mix(level(at.index), level(at.index + IntOf<T>(1)), at.fraction);
 }
 
 // Irradiance on a surface facing `normal`, divided by pi.
 template <class T>
 HWY_INLINE Vec3<T> IrradianceOverPi(const EnvironmentMap& map, Vec3<T> normal) {
   const std::int32_t size = map.irradiance.size;
-  return SampleOctahedron<T>(map.texel_data, T(static_cast<float>(size)),
-                             IndexOf<T>((size + 1) * 4), IndexOf<T>(map.irradiance.offset),
-                             OctahedronFromDirection(normal));
+  return SampleOctahedron<T>(map.texel_data, T(static_cast<float>(size)), IntOf<T>((size + 1) * 4),
+                             IntOf<T>(map.irradiance.offset), OctahedronFromDirection(normal));
 }
 
 // Bilinear reading of an equirectangular picture of 4-float pixels in a direction (any length but zero).
@@ -57,11 +56,11 @@ HWY_INLINE Vec3<T> SampleEquirectangular(const float* picture, std::int32_t widt
   const T x0 = Select(x_floor < T(0.0f), w - T(1.0f), Select(x_floor >= w, x_floor - w, x_floor));
   const T x_next = x0 + T(1.0f);
   const T x1 = Select(x_next >= w, T(0.0f), x_next);
-  const IndexOf<T> four = 4;
-  const IndexOf<T> row = IndexOf<T>(width * 4);
-  const IndexOf<T> top = TruncateToIndex(y0) * row;
-  const IndexOf<T> i00 = top + TruncateToIndex(x0) * four;
-  const IndexOf<T> i10 = top + TruncateToIndex(x1) * four;
+  const IntOf<T> four = 4;
+  const IntOf<T> row = IntOf<T>(width * 4);
+  const IntOf<T> top = TruncateToInt(y0) * row;
+  const IntOf<T> i00 = top + TruncateToInt(x0) * four;
+  const IntOf<T> i10 = top + TruncateToInt(x1) * four;
   const auto channel = [&](int c) HWY_ATTR {
     const T upper = Mix(Fetch<T>(picture + c, i00), Fetch<T>(picture + c, i10), fx);
     const T lower = Mix(Fetch<T>(picture + c, i00 + row), Fetch<T>(picture + c, i10 + row), fx);

@@ -24,8 +24,10 @@ HWY_INLINE LightSample<T> SamplePunctual(const PunctualLight& light, Vec3<T> pos
   const Vec3<T> to_light = Vec3<T>{T(light.position_eye[0]), T(light.position_eye[1]), T(light.position_eye[2])} -
                            position;
   // Nearer than a millimetre the light would outshine any film: its illuminance stays what it is there.
-  const T distance2 = Max(Dot(to_light, to_light), T(1e-6f));
-  const Vec3<T> direction = to_light * (T(1.0f) / Sqrt(distance2));
+  const T length2 = Dot(to_light, to_light);
+  const T distance2 = Max(length2, T(1e-6f));
+  // Unit in there too, down to 1e-18 m, below which squares vanish; in the light itself there is no direction.
+  const Vec3<T> direction = to_light * (T(1.0f) / Sqrt(Max(length2, T(1e-36f))));
   const T relative2 = distance2 * T(light.inverse_range2);
   const T window = Clamp(T(1.0f) - relative2 * relative2, T(0.0f), T(1.0f));
   T attenuation = window / distance2;
@@ -50,7 +52,7 @@ HWY_INLINE SpecularAlbedo<T> LookupDfg(const DfgTable& table, T n_dot_v, T perce
   const float last = static_cast<float>(DfgTable::kColumns - 1);
   const TablePosition<T> row = DfgRow(perceptual_roughness);
   const TablePosition<T> column = PositionInTable(Sqrt(Sqrt(Max(n_dot_v, T(0.0f)))) * T(last), last);
-  const IndexOf<T> index = (row.index * IndexOf<T>(DfgTable::kColumns) + column.index) * IndexOf<T>(2);
+  const IntOf<T> index = (row.index * IntOf<T>(DfgTable::kColumns) + column.index) * IntOf<T>(2);
   const auto read = [&](int c) HWY_ATTR {
     const float* p = table.albedo + c;
     const float* next = p + 2 * DfgTable::kColumns;
@@ -63,7 +65,7 @@ HWY_INLINE SpecularAlbedo<T> LookupDfg(const DfgTable& table, T n_dot_v, T perce
 template <class T>
 HWY_INLINE SpecularAlbedo<T> LookupDfgAverage(const DfgTable& table, T perceptual_roughness) {
   const TablePosition<T> row = DfgRow(perceptual_roughness);
-  const IndexOf<T> index = row.index * IndexOf<T>(2);
+  const IntOf<T> index = row.index * IntOf<T>(2);
   const auto read = [&](int c) HWY_ATTR {
     return Mix(Fetch<T>(table.average + c, index), Fetch<T>(table.average + c + 2, index), row.fraction);
   };

@@ -7,7 +7,8 @@
 #define FACET_LIGHT_OCTAHEDRON_INL_H_
 #endif
 
-#include "light/lookup-inl.h"
+#include "facet/shader/lookup-inl.h"
+#include "facet/shader/vec-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace facet {
@@ -42,13 +43,13 @@ HWY_INLINE Vec3<T> DirectionFromOctahedron(Vec2<T> uv) {
 // distance of rows and `offset` the place of the first texel, in floats; `last`, `row` and `offset` may differ between
 // lanes.
 template <class T>
-HWY_INLINE Vec3<T> SampleTexels(const float* texels, T x, T y, T last, IndexOf<T> row, IndexOf<T> offset) {
+HWY_INLINE Vec3<T> SampleTexels(const float* texels, T x, T y, T last, IntOf<T> row, IntOf<T> offset) {
   const T x0 = Min(Floor(x), last);
   const T y0 = Min(Floor(y), last);
   const T fx = x - x0;
   const T fy = y - y0;
-  const IndexOf<T> i00 = offset + TruncateToIndex(y0) * row + TruncateToIndex(x0) * IndexOf<T>(4);
-  const IndexOf<T> i01 = i00 + row;
+  const IntOf<T> i00 = offset + TruncateToInt(y0) * row + TruncateToInt(x0) * IntOf<T>(4);
+  const IntOf<T> i01 = i00 + row;
   const T w00 = (T(1.0f) - fx) * (T(1.0f) - fy);
   const T w10 = fx * (T(1.0f) - fy);
   const T w01 = (T(1.0f) - fx) * fy;
@@ -62,7 +63,7 @@ HWY_INLINE Vec3<T> SampleTexels(const float* texels, T x, T y, T last, IndexOf<T
 
 // A square of `size` x `size` cells with texels at its nodes, at uv in [0, 1]^2.
 template <class T>
-HWY_INLINE Vec3<T> SampleOctahedron(const float* texels, T size, IndexOf<T> row, IndexOf<T> offset, Vec2<T> uv) {
+HWY_INLINE Vec3<T> SampleOctahedron(const float* texels, T size, IntOf<T> row, IntOf<T> offset, Vec2<T> uv) {
   return SampleTexels<T>(texels, Clamp(uv.x * size, T(0.0f), size), Clamp(uv.y * size, T(0.0f), size),
                          size - T(1.0f), row, offset);
 }

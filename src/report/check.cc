@@ -142,7 +142,7 @@ class Check {
     result_.warnings.insert(result_.warnings.end(), stats.warnings.begin(), stats.warnings.end());
     result_.film = HashFilm(film);
     const bool same_film = expect_.film == result_.film;
-    if (same_film && !(options_.update && expect_.picture)) {
+    if (same_film && !expect_.picture) {
       result_.verdict = Verdict::Passed;
       return;
     }
@@ -152,8 +152,8 @@ class Check {
     if (golden && actual.width == golden->image.width && actual.height == golden->image.height) {
       result_.difference = CompareImages(golden->image, actual);
     }
-    if (same_film) {  // here for the sake of its picture
-      result_.verdict = result_.difference && result_.difference->equal ? Verdict::Passed : Verdict::Failed;
+    if (same_film) {
+      JudgePicture();
     } else {
       Judge();
     }
@@ -191,6 +191,17 @@ class Check {
       if (options_.update) return std::nullopt;
       const std::string hint = error.hint().empty() ? "--update writes it anew" : error.hint();
       throw Error(error.code(), error.where() + ": " + error.message(), place, hint);
+    }
+  }
+
+  // The film is the expected one: what is left to judge is how it was developed.
+  void JudgePicture() {
+    const std::optional<ImageDifference>& difference = result_.difference;
+    const bool within =
+        difference && expect_.has_thresholds && BrokenThresholds(*difference, expect_.thresholds).empty();
+    result_.verdict = within || (difference && difference->equal) ? Verdict::Passed : Verdict::Failed;
+    if (result_.verdict == Verdict::Failed && difference) {
+      result_.message = "the film is equal, the developed picture is not: " + Summary(*difference);
     }
   }
 

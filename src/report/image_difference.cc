@@ -5,6 +5,7 @@
 #include <limits>
 #include <string>
 
+#include "base/float_environment.h"
 #include "base/parallel.h"
 #include "color/srgb.h"
 #include "facet/compare.h"
@@ -193,6 +194,7 @@ std::string SizeText(const Image& image) { return std::to_string(image.width) + 
 }  // namespace
 
 ImageDifference CompareImages(const Image& a, const Image& b, const CompareOptions& options) {
+  const FloatEnvironment pinned;
   CheckImage(a, "the first picture");
   CheckImage(b, "the second picture");
   if (!(options.pixels_per_degree >= 1.0 && options.pixels_per_degree <= 1000.0)) {

@@ -72,9 +72,9 @@ struct Bound {
   std::optional<double> CompareThresholds::*member;
 };
 constexpr std::array<Bound, 5> kBounds = {{{"max-flip", {0.0, 1.0}, &CompareThresholds::max_flip},
-                                           {"max-rmse", {0.0, 1e9}, &CompareThresholds::max_rmse},
-                                           {"max-difference", {0.0, 1e9}, &CompareThresholds::max_difference},
-                                           {"min-psnr", {-1e9, 1e9}, &CompareThresholds::min_psnr_db},
+                                           {"max-rmse", {0.0, 1e6}, &CompareThresholds::max_rmse},
+                                           {"max-difference", {0.0, 1e6}, &CompareThresholds::max_difference},
+                                           {"min-psnr", {-200.0, 200.0}, &CompareThresholds::min_psnr_db},
                                            {"min-ssim", {-1.0, 1.0}, &CompareThresholds::min_ssim}}};
 
 void ReadThresholds(const Value& value, Expectation& expect) {
@@ -224,7 +224,7 @@ Manifest ReadManifest(const std::filesystem::path& path) {
   const Value entries = root["entries"];
   entries.Expect(entries.json.is_array(), "list");
 
-  std::map<std::string, std::string> pointer_of_name;
+  std::map<std::string, std::string> pointer_of_name, pointer_of_picture;
   for (std::size_t i = 0; i < entries.json.size(); ++i) {
     const Value value{entries.json[i], entries.pointer / i, manifest.name};
     ManifestEntry& entry = manifest.entries.emplace_back();
@@ -234,6 +234,11 @@ Manifest ReadManifest(const std::filesystem::path& path) {
       ReadEntry(value, entry);
       const auto [first, is_new] = pointer_of_name.emplace(entry.name, entry.pointer);
       if (!is_new) value["name"].Fail(Quoted(entry.name) + " is the name of " + first->second + " too");
+      if (entry.expect.picture) {
+        const std::string picture = entry.expect.picture->lexically_normal().string();
+        const auto [owner, is_own] = pointer_of_picture.emplace(picture, entry.pointer);
+        if (!is_own) value["expect"]["picture"].Fail("is the picture of " + owner->second + " too");
+      }
     } catch (const Error& error) {
       entry.problem = error;
     }

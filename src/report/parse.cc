@@ -92,6 +92,25 @@ double ParseNumber(std::string_view option, std::string_view text, Range range) 
   return *value;
 }
 
+double ParseDuration(std::string_view option, std::string_view text, Range range) {
+  struct Unit {
+    std::string_view name;
+    double seconds;
+  };
+  static constexpr Unit kUnits[] = {{"ms", 1e-3}, {"min", 60.0}, {"s", 1.0}, {"h", 3600.0}, {"", 1.0}};
+  const std::string hint =
+      "give a time from " + Text(range.low) + " to " + Text(range.high) + " seconds, such as 200ms, 10s or 2min";
+  for (const Unit& unit : kUnits) {
+    if (!text.ends_with(unit.name)) continue;
+    const std::optional<double> value = WholeNumber(text.substr(0, text.size() - unit.name.size()));
+    if (!value) break;
+    const double seconds = *value * unit.seconds;
+    if (seconds < range.low || seconds > range.high) Refuse(option, text, "in range", hint);
+    return seconds;
+  }
+  Refuse(option, text, "a time", hint);
+}
+
 int ParseInteger(std::string_view option, std::string_view text, int low, int high) {
   int value = 0;
   const char* end = text.data() + text.size();

@@ -21,6 +21,9 @@ struct Range {
 // A finite decimal number in `range`; a leading '+' is allowed.
 double ParseNumber(std::string_view option, std::string_view text, Range range);
 
+// A duration in seconds: a number, and one of the units ms, s (also where none stands), min and h. `range`: seconds.
+double ParseDuration(std::string_view option, std::string_view text, Range range);
+
 // A decimal integer in [low, high].
 int ParseInteger(std::string_view option, std::string_view text, int low, int high);
 

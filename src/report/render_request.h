@@ -1,5 +1,5 @@
-// What a picture is made with, in words: the options that decide over its bits. The command line, manifests and the text
-// inside PNG files share them, so that each is written once and read by the same code.
+// What a picture is made with, in words: the options that decide over its bits. The command line, manifests and the
+// text inside PNG files share them, so that each is written once and read by the same code.
 #pragma once
 
 #include <filesystem>
@@ -57,7 +57,8 @@ std::map<std::string, std::string> SpelledOut(const RenderRequest& request);
 // Throws Error(InvalidUsage) for options that contradict each other.
 void RefuseContradictions(const RenderRequest& request);
 
-// The settings for a scene: names become indices, and the environment's picture is loaded (a relative path: from `base`).
+// The settings for a scene: names become indices, and the environment's picture is loaded (a relative path: from
+// `base`).
 // Throws Error: InvalidUsage for names that the scene does not have; what LoadImage throws.
 RenderSettings ResolveRequest(const RenderRequest& request, const Scene& scene, const std::filesystem::path& base = {});
 

@@ -28,22 +28,25 @@ std::string Error4(double error) { return std::isnan(error) ? ErrorWords(error) 
 
 Choice ChoosePoint(const ErrorReport& report, const Bound& bound) {
   if (!bound.max_relative_rmse && !bound.max_seconds) {
-    throw Error(ErrorCode::InvalidUsage, "there is nothing to choose by", {}, "give a largest error, a longest time or both");
+    throw Error(ErrorCode::InvalidUsage, "there is nothing to choose by", {},
+                "give a largest error, a longest time or both");
   }
   RefuseUnlessPositive(bound.max_relative_rmse, "the largest relative error");
   RefuseUnlessPositive(bound.max_seconds, "the longest time, in seconds,");
   if (report.points.empty()) {
-    throw Error(ErrorCode::InvalidInput, "the report has no points", Printable(report.scene), "measure with a larger budget");
+    throw Error(ErrorCode::InvalidInput, "the report has no points", Printable(report.scene),
+                "measure with a larger budget");
   }
 
   constexpr double kNone = std::numeric_limits<double>::infinity();
   const double max_error = bound.max_relative_rmse.value_or(kNone), max_seconds = bound.max_seconds.value_or(kNone);
-  // Points that keep the bound come before those that do not. Among the former the time decides, or the error where only
-  // the time is bounded; among the latter, by what factor the worse of the bounds is missed. Smaller is better.
+  // Points that keep the bound come before those that do not. Among the former the time decides, or the error where
+  // only the time is bounded; among the latter, by what factor the worse of the bounds is missed. Smaller is better.
   using Rank = std::tuple<bool, double>;
   const auto rank = [&](const ReportPoint& point) -> Rank {
     const double error = KnownOrInfinite(point.error.relative_rmse), seconds = KnownOrInfinite(point.seconds);
-    const bool kept = (!bound.max_relative_rmse || error <= max_error) && (!bound.max_seconds || seconds <= max_seconds);
+    const bool kept =
+        (!bound.max_relative_rmse || error <= max_error) && (!bound.max_seconds || seconds <= max_seconds);
     if (kept) return {false, bound.max_relative_rmse ? seconds : error};
     if (!bound.max_seconds) return {true, error};
     if (!bound.max_relative_rmse) return {true, seconds};
@@ -74,16 +77,18 @@ Choice ChoosePoint(const ErrorReport& report, const Bound& bound) {
           "; takes the nearest, " + SettingsWords(best->changed) + ": " + values;
   } else {
     why = "takes " + SettingsWords(best->changed) + ": ";
-    if (bound.max_relative_rmse) why += "relative RMSE " + error + " is within " + Error4(max_error) + ", and ";
-    if (bound.max_seconds) why += "its " + seconds + " are within " + TimeWords(max_seconds) + ", and ";
-    const std::string least = bound.max_seconds && !bound.max_relative_rmse ? "its relative RMSE " + error + " is"
-                              : bound.max_seconds                           ? "are"
-                                                                            : "its " + seconds + " are";
+    if (bound.max_relative_rmse) why += "relative RMSE " + error + " is within " + Error4(max_error);
+    if (bound.max_relative_rmse && bound.max_seconds) why += ", and ";
+    if (bound.max_seconds) why += "its " + seconds + " are within " + TimeWords(max_seconds);
+    const std::string of_those = " the least of " + std::to_string(kept_count) + " such points";
     if (kept_count == 1) {
-      why += "no other point's";
-      why += bound.max_relative_rmse && bound.max_seconds ? " error and time are" : bound.max_seconds ? " time is" : " error is";
+      why += "; it is the only such point";
+    } else if (bound.max_relative_rmse && bound.max_seconds) {
+      why += " and" + of_those;
+    } else if (bound.max_seconds) {
+      why += ", and its relative RMSE " + error + " is" + of_those;
     } else {
-      why += least + " the least of " + std::to_string(kept_count) + " such points";
+      why += ", and its " + seconds + " are" + of_those;
     }
   }
   why = Printable(why);

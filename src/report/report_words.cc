@@ -9,9 +9,9 @@ namespace {
 
 constexpr const char* kNotKnown = "not known";
 
-// Whole numbers keep all their digits: 1024 KiB must not become 1.02e+03.
+// Whole numbers keep their digits up to a million: 1024 KiB must not become 1.02e+03.
 std::string ThreeDigits(double value) {
-  return std::abs(value) < 100.0 ? ShortNumber(value, 3) : ShortNumber(std::round(value));
+  return value >= 100.0 && value < 1e6 ? ShortNumber(std::round(value)) : ShortNumber(value, 3);
 }
 
 }  // namespace
@@ -37,6 +37,18 @@ std::string BytesWords(double bytes) {
   return ThreeDigits(bytes / (kKi * kKi * kKi)) + " GiB";
 }
 
-std::string ErrorWords(double error) { return std::isnan(error) ? kNotKnown : ShortNumber(error, 3); }
+std::string ErrorWords(double error) {
+  if (std::isnan(error)) return kNotKnown;
+  const std::string text = ThreeDigits(error);
+  const std::size_t e = text.find('e');
+  return e == std::string::npos ? text : text.substr(0, e) + "·" + PowerOfTen(std::stoi(text.substr(e + 1)));
+}
+
+std::string PowerOfTen(int exponent) {
+  static constexpr const char* kDigits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+  std::string power = "10";
+  for (const char c : std::to_string(exponent)) power += c == '-' ? "⁻" : kDigits[c - '0'];
+  return power;
+}
 
 }  // namespace facet

@@ -14,7 +14,10 @@ std::string SettingsWords(const SettingsText& changed);
 std::string TimeWords(double seconds);
 std::string BytesWords(double bytes);
 
-// Three digits: "0.0312"; "not known" for what is no number.
+// Three digits: "0.0312", "4.2·10⁻⁷"; "not known" for what is no number.
 std::string ErrorWords(double error);
+
+// "10⁻⁷"
+std::string PowerOfTen(int exponent);
 
 }  // namespace facet

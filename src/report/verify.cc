@@ -51,13 +51,17 @@ Verification Verify(const std::filesystem::path& png, const std::filesystem::pat
   const Provenance provenance = ReadProvenance(png);
   RenderRequest request = ReadRequest(provenance, name);
   std::filesystem::path base = scene.parent_path();
-  if (settings.environment && request.environment) {
+  if (settings.environment) {
+    if (!request.environment) {
+      throw Error(ErrorCode::InvalidUsage, "no environment's picture lit it", name, "leave the environment out");
+    }
     request.environment = settings.environment;
     base.clear();
   }
   const Image before = LoadImage(png);
-  const RenderInputs inputs = LoadInputs(scene, request, {}, base);
-  const Film film = Render(inputs.loaded.scene, inputs.settings);
+  const RenderInputs inputs = LoadInputs(scene, request, settings.load, base);
+  RenderStats stats;
+  const Film film = Render(inputs.loaded.scene, inputs.settings, &stats);
   const Image now = Develop(film, request.display, request.type);
   if (before.width != now.width || before.height != now.height || before.channels != now.channels ||
       before.type != now.type) {
@@ -66,6 +70,8 @@ Verification Verify(const std::filesystem::path& png, const std::filesystem::pat
   }
 
   Verification v;
+  v.warnings = inputs.loaded.report.warnings;
+  v.warnings.insert(v.warnings.end(), stats.warnings.begin(), stats.warnings.end());
   v.written_by = provenance.version;
   v.scene = provenance.scene;
   v.intact = HashImage(before) == provenance.pixels;

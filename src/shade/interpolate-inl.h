@@ -1,4 +1,5 @@
-// Attributes of a packet of fragments, perspective-correct, with analytic derivatives of the texture coordinates.
+// Attributes of fragments, perspective-correct, with analytic derivatives of the texture coordinates. T is Float
+// (lanes), float or double.
 
 #if defined(FACET_SHADE_INTERPOLATE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef FACET_SHADE_INTERPOLATE_INL_H_
@@ -7,6 +8,7 @@
 #define FACET_SHADE_INTERPOLATE_INL_H_
 #endif
 
+#include "facet/shader/lookup-inl.h"
 #include "facet/shader/surface-inl.h"
 #include "shade/shade_task.h"
 #include "shade/triangle_setup.h"
@@ -15,78 +17,84 @@ HWY_BEFORE_NAMESPACE();
 namespace facet {
 namespace HWY_NAMESPACE {
 
+template <class T>
 struct Barycentric {
-  Float b[3];             // weights, >= 0, sum 1
-  Float db_dx[3], db_dy[3];  // per pixel
+  T b[3];                // weights, >= 0, sum 1
+  T db_dx[3], db_dy[3];  // per pixel
 };
 
 // `base`: index of each lane's setup times its stride.
-HWY_INLINE Barycentric InterpolationWeights(const float* setups, Int base, Float x, Float y) {
+template <class T>
+HWY_INLINE Barycentric<T> InterpolationWeights(const float* setups, IntOf<T> base, T x, T y) {
   const float* planes = setups + SetupLayout::kPlanes;
-  Float a[3], b[3], e[3];
+  T a[3], b[3], e[3];
   for (int i = 0; i < 3; ++i) {
-    a[i] = Gather(planes + 3 * i, base);
-    b[i] = Gather(planes + 3 * i + 1, base);
+    a[i] = Fetch<T>(planes + 3 * i, base);
+    b[i] = Fetch<T>(planes + 3 * i + 1, base);
     // Snapping and partly covered pixels put fragments a little outside their triangle; clamped, they read its edge.
-    e[i] = Max((Gather(planes + 3 * i + 2, base) + a[i] * x) + b[i] * y, Float(0.0f));
+    e[i] = Max((Fetch<T>(planes + 3 * i + 2, base) + a[i] * x) + b[i] * y, T(0.0f));
   }
-  const Float sum = (e[0] + e[1]) + e[2];
-  const Mask good = (sum > Float(0.0f)) & IsFinite(sum);
-  const Float inverse = Select(good, Float(1.0f) / sum, Float(0.0f));
-  const Float sum_a = (a[0] + a[1]) + a[2], sum_b = (b[0] + b[1]) + b[2];
-  Barycentric w;
+  const T sum = (e[0] + e[1]) + e[2];
+  const MaskOf<T> good = (sum > T(0.0f)) & IsFinite(sum);
+  const T inverse = Select(good, T(1.0f) / sum, T(0.0f));
+  const T sum_a = (a[0] + a[1]) + a[2], sum_b = (b[0] + b[1]) + b[2];
+  Barycentric<T> w{};
   for (int i = 0; i < 3; ++i) {
-    w.b[i] = Select(good, e[i] * inverse, Float(i == 0 ? 1.0f : 0.0f));
+    w.b[i] = Select(good, e[i] * inverse, T(i == 0 ? 1.0f : 0.0f));
     w.db_dx[i] = (a[i] - w.b[i] * sum_a) * inverse;
     w.db_dy[i] = (b[i] - w.b[i] * sum_b) * inverse;
   }
   return w;
 }
 
-HWY_INLINE Float Weigh(const Float (&weights)[3], Float v0, Float v1, Float v2) {
+template <class T>
+HWY_INLINE T Weigh(const T (&weights)[3], T v0, T v1, T v2) {
   return (weights[0] * v0 + weights[1] * v1) + weights[2] * v2;
 }
 
 // A number of each vertex, `stride` apart, at setups[base + first].
-HWY_INLINE Float InterpolateOne(const float* setups, Int base, const Barycentric& w, int first, int stride) {
-  return Weigh(w.b, Gather(setups + first, base), Gather(setups + first + stride, base),
-               Gather(setups + first + 2 * stride, base));
+template <class T>
+HWY_INLINE T InterpolateOne(const float* setups, IntOf<T> base, const Barycentric<T>& w, int first, int stride) {
+  return Weigh(w.b, Fetch<T>(setups + first, base), Fetch<T>(setups + first + stride, base),
+               Fetch<T>(setups + first + 2 * stride, base));
 }
 
-HWY_INLINE Vec3<Float> InterpolateVec3(const float* setups, Int base, const Barycentric& w, int first, int stride) {
+template <class T>
+HWY_INLINE Vec3<T> InterpolateVec3(const float* setups, IntOf<T> base, const Barycentric<T>& w, int first, int stride) {
   return {InterpolateOne(setups, base, w, first, stride), InterpolateOne(setups, base, w, first + 1, stride),
           InterpolateOne(setups, base, w, first + 2, stride)};
 }
 
-// The surface under fragments [i, i + lanes) of `task`: only what its material reads.
-HWY_INLINE Surface<Float> InterpolateSurface(const ShadeTask& task, std::size_t i) {
+// The surface under fragment i of `task`, or those of all lanes from i on: only what its material reads.
+template <class T>
+HWY_INLINE Surface<T> InterpolateSurface(const ShadeTask& task, std::size_t i) {
   const FrameMaterial& material = *task.material;
   const float* setups = task.setups;
-  const Int base = LoadInt(task.setup + i) * Int(SetupLayout::kStride);
-  const Barycentric w = InterpolationWeights(setups, base, LoadFloat(task.x + i), LoadFloat(task.y + i));
-  Surface<Float> s{};
-  s.color = {Float(1.0f), Float(1.0f), Float(1.0f), Float(1.0f)};
+  const IntOf<T> base = LoadIntOf<T>(task.setup + i) * IntOf<T>(SetupLayout::kStride);
+  const Barycentric<T> w = InterpolationWeights(setups, base, Load<T>(task.x + i), Load<T>(task.y + i));
+  Surface<T> s{};
+  s.color = {T(1.0f), T(1.0f), T(1.0f), T(1.0f)};
   if (material.vertex_colors) {
-    const Vec3<Float> rgb = InterpolateVec3(setups, base, w, SetupLayout::kColors, 4);
+    const Vec3<T> rgb = InterpolateVec3(setups, base, w, SetupLayout::kColors, 4);
     s.color = {rgb.x, rgb.y, rgb.z, InterpolateOne(setups, base, w, SetupLayout::kColors + 3, 4)};
   }
   if (material.Has(kLit)) {
-    const Vec3<Float> up{Float(0.0f), Float(0.0f), Float(1.0f)};
+    const Vec3<T> up{T(0.0f), T(0.0f), T(1.0f)};
     s.position = InterpolateVec3(setups, base, w, SetupLayout::kPositions, 3);
-    s.view = task.orthographic ? Vec3<Float>{Float(task.view_direction[0]), Float(task.view_direction[1]),
-                                             Float(task.view_direction[2])}
-                               : NormalizeOr(-s.position, up);
+    s.view = task.orthographic
+                 ? Vec3<T>{T(task.view_direction[0]), T(task.view_direction[1]), T(task.view_direction[2])}
+                 : NormalizeOr(-s.position, up);
     s.interpolated_normal = InterpolateVec3(setups, base, w, SetupLayout::kNormals, 3);
     s.normal = NormalizeOr(s.interpolated_normal, s.view);
   }
   if (material.Has(kNormalTexture)) {
-    const Vec3<Float> t = InterpolateVec3(setups, base, w, SetupLayout::kTangents, 4);
+    const Vec3<T> t = InterpolateVec3(setups, base, w, SetupLayout::kTangents, 4);
     s.tangent = {t.x, t.y, t.z, InterpolateOne(setups, base, w, SetupLayout::kTangents + 3, 4)};
   }
   for (int slot = 0; slot < material.uv_slots; ++slot) {
     const float* p = setups + SetupLayout::kTexCoords + 6 * slot;
-    const Float u0 = Gather(p, base), v0 = Gather(p + 1, base), u1 = Gather(p + 2, base), v1 = Gather(p + 3, base),
-                u2 = Gather(p + 4, base), v2 = Gather(p + 5, base);
+    const T u0 = Fetch<T>(p, base), v0 = Fetch<T>(p + 1, base), u1 = Fetch<T>(p + 2, base), v1 = Fetch<T>(p + 3, base),
+            u2 = Fetch<T>(p + 4, base), v2 = Fetch<T>(p + 5, base);
     s.uv[slot] = {Weigh(w.b, u0, u1, u2), Weigh(w.b, v0, v1, v2)};
     s.duv_dx[slot] = {Weigh(w.db_dx, u0, u1, u2), Weigh(w.db_dx, v0, v1, v2)};
     s.duv_dy[slot] = {Weigh(w.db_dy, u0, u1, u2), Weigh(w.db_dy, v0, v1, v2)};

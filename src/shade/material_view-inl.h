@@ -16,7 +16,7 @@ HWY_BEFORE_NAMESPACE();
 namespace facet {
 namespace HWY_NAMESPACE {
 
-// T is Float: textures are read on lanes.
+// T is Float (lanes), float or double.
 template <class T>
 class MaterialView {
  public:
@@ -58,7 +58,7 @@ class MaterialView {
 
   // All that the metallic-roughness model reads.
   HWY_INLINE MaterialInputs<T> Inputs(const Surface<T>& s) const {
-    MaterialInputs<T> in;
+    MaterialInputs<T> in{};
     const Vec4<T> base = BaseColor(s);
     in.base_color = Xyz(base);
     in.alpha_coverage = base.w;

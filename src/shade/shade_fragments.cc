@@ -17,7 +17,7 @@ void MetallicRoughnessKernel(const ShadeTask& task) { ShadePackets(task, Metalli
 void AlphaKernel(const ShadeTask& task) {
   const MaterialView<Float> material(*task.material);
   for (std::size_t i = 0; i < task.count; i += LaneCount()) {
-    Store(material.Alpha(InterpolateSurface(task, i)), task.alpha + i);
+    Store(material.Alpha(InterpolateSurface<Float>(task, i)), task.alpha + i);
   }
 }
 

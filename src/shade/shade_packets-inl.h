@@ -22,7 +22,7 @@ HWY_INLINE void ShadePackets(const ShadeTask& task, const Shader& shader) {
   const LightingView<Float> lighting(*task.lighting);
   const std::size_t lanes = LaneCount();
   for (std::size_t i = 0; i < task.count; i += lanes) {
-    const Surface<Float> surface = InterpolateSurface(task, i);
+    const Surface<Float> surface = InterpolateSurface<Float>(task, i);
     const Shaded<Float> shaded = shader(surface, material, lighting);
     const Vec3<Float> c = shaded.color;
     const Mask finite = IsFinite(c.x) & IsFinite(c.y) & IsFinite(c.z) & IsFinite(shaded.alpha);

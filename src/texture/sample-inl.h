@@ -1,4 +1,5 @@
-// Reading textures: wrapping, bilinear, trilinear and anisotropic filtering on lanes, in linear light.
+// Reading textures: wrapping, bilinear, trilinear and anisotropic filtering, in linear light. T is Float (lanes),
+// float or double.
 
 #if defined(FACET_TEXTURE_SAMPLE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef FACET_TEXTURE_SAMPLE_INL_H_
@@ -8,6 +9,7 @@
 #endif
 
 #include "facet/shader/elementary-inl.h"
+#include "facet/shader/lookup-inl.h"
 #include "facet/shader/vec-inl.h"
 #include "texture/texture.h"
 
@@ -19,89 +21,91 @@ namespace HWY_NAMESPACE {
 enum ChannelMask : int { kR = 1, kG = 2, kB = 4, kA = 8, kRgb = 7, kRgba = 15 };
 
 // The texels i and i + 1 on one axis, after wrapping, and how far the position lies towards the second.
+template <class T>
 struct AxisTaps {
-  Int first, second;
-  Float fraction;
+  IntOf<T> first, second;
+  T fraction;
 };
 
 // `position` in [0, 1] units of the texture; `size` in texels; `linear`: lanes that interpolate.
-HWY_INLINE AxisTaps MakeTaps(Wrap wrap, Float position, Int size, Mask linear) {
-  position = Select(IsFinite(position), position, Float(0.0f));
+template <class T>
+HWY_INLINE AxisTaps<T> MakeTaps(Wrap wrap, T position, IntOf<T> size, MaskOf<T> linear) {
+  position = Select(IsFinite(position), position, T(0.0f));
   switch (wrap) {
     case Wrap::Repeat: position = position - Floor(position); break;
     case Wrap::MirroredRepeat: {
-      const Float folded = position - Float(2.0f) * Floor(position * Float(0.5f));
-      position = Select(folded > Float(1.0f), Float(2.0f) - folded, folded);
+      const T folded = position - T(2.0f) * Floor(position * T(0.5f));
+      position = Select(folded > T(1.0f), T(2.0f) - folded, folded);
       break;
     }
-    case Wrap::ClampToEdge: position = Clamp(position, Float(0.0f), Float(1.0f)); break;
+    case Wrap::ClampToEdge: position = Clamp(position, T(0.0f), T(1.0f)); break;
   }
-  const Float texel = position * ToFloat(size) - Select(linear, Float(0.5f), Float(0.0f));
-  const Float whole = Floor(texel);
-  AxisTaps taps;
-  taps.fraction = Select(linear, texel - whole, Float(0.0f));
-  const Int i = TruncateToInt(whole), last = size - Int(1);
+  const T texel = position * FromInt<T>(size) - Select(linear, T(0.5f), T(0.0f));
+  const T whole = Floor(texel);
+  AxisTaps<T> taps{};
+  taps.fraction = Select(linear, texel - whole, T(0.0f));
+  const IntOf<T> i = TruncateToInt(whole), last = size - IntOf<T>(1);
   if (wrap == Wrap::Repeat) {
-    const auto wrapped = [&](Int k) HWY_ATTR {
-      k = Select(k < Int(0), k + size, k);
+    const auto wrapped = [&](IntOf<T> k) HWY_ATTR {
+      k = Select(k < IntOf<T>(0), k + size, k);
       return Select(k > last, k - size, k);
     };
     taps.first = wrapped(i);
-    taps.second = wrapped(i + Int(1));
+    taps.second = wrapped(i + IntOf<T>(1));
   } else {  // a mirrored edge repeats its texel, as a clamped one does
-    taps.first = Max(Min(i, last), Int(0));
-    taps.second = Max(Min(i + Int(1), last), Int(0));
+    taps.first = Max(Min(i, last), IntOf<T>(0));
+    taps.second = Max(Min(i + IntOf<T>(1), last), IntOf<T>(0));
   }
   return taps;
 }
 
-template <int kChannels>
-HWY_INLINE Vec4<Float> FetchTexel(const TextureData& data, Int texel) {
-  Vec4<Float> c{};
+template <int kChannels, class T>
+HWY_INLINE Vec4<T> FetchTexel(const TextureData& data, IntOf<T> texel) {
+  Vec4<T> c{};
   const std::int32_t* words = data.words.data();
   if (data.wide) {
-    const Int index = texel + texel;
-    const Float scale(1.0f / 65535.0f);
+    const IntOf<T> index = texel + texel;
+    const T scale(1.0f / 65535.0f);
     if constexpr ((kChannels & (kR | kG)) != 0) {
-      const Int rg = Gather(words, index);
-      if constexpr ((kChannels & kR) != 0) c.x = ToFloat(rg & Int(0xFFFF)) * scale;
-      if constexpr ((kChannels & kG) != 0) c.y = ToFloat(ShiftRightLogical<16>(rg)) * scale;
+      const IntOf<T> rg = FetchInt(words, index);
+      if constexpr ((kChannels & kR) != 0) c.x = FromInt<T>(rg & IntOf<T>(0xFFFF)) * scale;
+      if constexpr ((kChannels & kG) != 0) c.y = FromInt<T>(ShiftRightLogical<16>(rg)) * scale;
     }
     if constexpr ((kChannels & (kB | kA)) != 0) {
-      const Int ba = Gather(words + 1, index);
-      if constexpr ((kChannels & kB) != 0) c.z = ToFloat(ba & Int(0xFFFF)) * scale;
-      if constexpr ((kChannels & kA) != 0) c.w = ToFloat(ShiftRightLogical<16>(ba)) * scale;
+      const IntOf<T> ba = FetchInt(words + 1, index);
+      if constexpr ((kChannels & kB) != 0) c.z = FromInt<T>(ba & IntOf<T>(0xFFFF)) * scale;
+      if constexpr ((kChannels & kA) != 0) c.w = FromInt<T>(ShiftRightLogical<16>(ba)) * scale;
     }
   } else {
-    const Int rgba = Gather(words, texel);
-    const Float scale(1.0f / 255.0f);
-    if constexpr ((kChannels & kR) != 0) c.x = ToFloat(rgba & Int(0xFF)) * scale;
-    if constexpr ((kChannels & kG) != 0) c.y = ToFloat(ShiftRightLogical<8>(rgba) & Int(0xFF)) * scale;
-    if constexpr ((kChannels & kB) != 0) c.z = ToFloat(ShiftRightLogical<16>(rgba) & Int(0xFF)) * scale;
-    if constexpr ((kChannels & kA) != 0) c.w = ToFloat(ShiftRightLogical<24>(rgba)) * scale;
+    const IntOf<T> rgba = FetchInt(words, texel);
+    const T scale(1.0f / 255.0f);
+    if constexpr ((kChannels & kR) != 0) c.x = FromInt<T>(rgba & IntOf<T>(0xFF)) * scale;
+    if constexpr ((kChannels & kG) != 0) c.y = FromInt<T>(ShiftRightLogical<8>(rgba) & IntOf<T>(0xFF)) * scale;
+    if constexpr ((kChannels & kB) != 0) c.z = FromInt<T>(ShiftRightLogical<16>(rgba) & IntOf<T>(0xFF)) * scale;
+    if constexpr ((kChannels & kA) != 0) c.w = FromInt<T>(ShiftRightLogical<24>(rgba)) * scale;
   }
   return c;
 }
 
 // One bilinear footprint in level `level` (per lane).
-template <int kChannels>
-HWY_INLINE Vec4<Float> SampleLevel(const TextureSlot& slot, Vec2<Float> uv, Int level, Mask linear) {
+template <int kChannels, class T>
+HWY_INLINE Vec4<T> SampleLevel(const TextureSlot& slot, Vec2<T> uv, IntOf<T> level, MaskOf<T> linear) {
   const TextureData& data = *slot.data;
-  const AxisTaps u = MakeTaps(slot.sampler.wrap_u, uv.x, Gather(data.level_width, level), linear);
-  const AxisTaps v = MakeTaps(slot.sampler.wrap_v, uv.y, Gather(data.level_height, level), linear);
-  const Int offset = Gather(data.level_offset, level), pitch = Gather(data.level_pitch, level);
-  const auto column = [](Int x) HWY_ATTR { return ShiftLeft<4>(ShiftRightArithmetic<2>(x)) + (x & Int(3)); };
-  const auto row = [&](Int y) HWY_ATTR {
-    return offset + ShiftLeft<4>(ShiftRightArithmetic<2>(y) * pitch) + ShiftLeft<2>(y & Int(3));
+  const AxisTaps<T> u = MakeTaps(slot.sampler.wrap_u, uv.x, FetchInt(data.level_width, level), linear);
+  const AxisTaps<T> v = MakeTaps(slot.sampler.wrap_v, uv.y, FetchInt(data.level_height, level), linear);
+  const IntOf<T> offset = FetchInt(data.level_offset, level), pitch = FetchInt(data.level_pitch, level);
+  const auto column = [](IntOf<T> x) HWY_ATTR { return ShiftLeft<4>(ShiftRightArithmetic<2>(x)) + (x & IntOf<T>(3)); };
+  const auto row = [&](IntOf<T> y) HWY_ATTR {
+    return offset + ShiftLeft<4>(ShiftRightArithmetic<2>(y) * pitch) + ShiftLeft<2>(y & IntOf<T>(3));
   };
-  const Int x0 = column(u.first), x1 = column(u.second), y0 = row(v.first), y1 = row(v.second);
-  const Vec4<Float> c00 = FetchTexel<kChannels>(data, y0 + x0), c10 = FetchTexel<kChannels>(data, y0 + x1);
-  const Vec4<Float> c01 = FetchTexel<kChannels>(data, y1 + x0), c11 = FetchTexel<kChannels>(data, y1 + x1);
-  const auto mix = [&](Float a, Float b, Float c, Float d) HWY_ATTR {
-    const Float top = a + (b - a) * u.fraction, bottom = c + (d - c) * u.fraction;
+  const IntOf<T> x0 = column(u.first), x1 = column(u.second), y0 = row(v.first), y1 = row(v.second);
+  const Vec4<T> c00 = FetchTexel<kChannels, T>(data, y0 + x0), c10 = FetchTexel<kChannels, T>(data, y0 + x1);
+  const Vec4<T> c01 = FetchTexel<kChannels, T>(data, y1 + x0), c11 = FetchTexel<kChannels, T>(data, y1 + x1);
+  const auto mix = [&](T a, T b, T c, T d) HWY_ATTR {
+    const T top = a + (b - a) * u.fraction, bottom = c + (d - c) * u.fraction;
     return top + (bottom - top) * v.fraction;
   };
-  Vec4<Float> result{};
+  Vec4<T> result{};
   if constexpr ((kChannels & kR) != 0) result.x = mix(c00.x, c10.x, c01.x, c11.x);
   if constexpr ((kChannels & kG) != 0) result.y = mix(c00.y, c10.y, c01.y, c11.y);
   if constexpr ((kChannels & kB) != 0) result.z = mix(c00.z, c10.z, c01.z, c11.z);
@@ -111,94 +115,94 @@ HWY_INLINE Vec4<Float> SampleLevel(const TextureSlot& slot, Vec2<Float> uv, Int 
 
 // The ellipse that a pixel covers in a texture: the axes of the linear map from pixels to texels of level 0, by its
 // singular values. (GPUs approximate them by the lengths of the two columns, which blurs skewed footprints.)
+template <class T>
 struct Footprint {
-  Float lod;           // log2 of the width that one tap has to cover
-  Float taps;          // how many taps go along the major axis, 1 to max_anisotropy
-  Vec2<Float> major;   // the major axis in uv, whole length
+  T lod;          // log2 of the width that one tap has to cover
+  T taps;         // how many taps go along the major axis, 1 to max_anisotropy
+  Vec2<T> major;  // the major axis in uv, whole length
 };
 
-HWY_INLINE Footprint MakeFootprint(const TextureSlot& slot, Vec2<Float> duv_dx, Vec2<Float> duv_dy) {
-  const Float width(static_cast<float>(slot.data->level_width[0])), height(static_cast<float>(slot.data->level_height[0]));
+template <class T>
+HWY_INLINE Footprint<T> MakeFootprint(const TextureSlot& slot, Vec2<T> duv_dx, Vec2<T> duv_dy) {
+  const T width(static_cast<float>(slot.data->level_width[0])), height(static_cast<float>(slot.data->level_height[0]));
   // Beyond every texture's last level, and below what overflows when it is squared twice; a NaN becomes the lower one.
-  const Float limit(1e9f);
-  const auto bounded = [&](Float texels) HWY_ATTR { return Clamp(texels, -limit, limit); };
-  const Float ux = bounded(duv_dx.x * width), vx = bounded(duv_dx.y * height), uy = bounded(duv_dy.x * width),
-              vy = bounded(duv_dy.y * height);
-  const Float a = ux * ux + uy * uy, b = ux * vx + uy * vy, c = vx * vx + vy * vy;
-  const Float determinant = Abs(ux * vy - uy * vx);
-  const Float half_gap = Sqrt((a - c) * (a - c) * Float(0.25f) + b * b);
-  const Float major_squared = (a + c) * Float(0.5f) + half_gap;
-  const Float tiny(1e-30f);
-  const Float major = Sqrt(Max(major_squared, tiny));
-  const Float minor = determinant / major;
+  const T limit(1e9f);
+  const auto bounded = [&](T texels) HWY_ATTR { return Clamp(texels, -limit, limit); };
+  const T ux = bounded(duv_dx.x * width), vx = bounded(duv_dx.y * height), uy = bounded(duv_dy.x * width),
+          vy = bounded(duv_dy.y * height);
+  const T a = ux * ux + uy * uy, b = ux * vx + uy * vy, c = vx * vx + vy * vy;
+  const T determinant = Abs(ux * vy - uy * vx);
+  const T half_gap = Sqrt((a - c) * (a - c) * T(0.25f) + b * b);
+  const T major_squared = (a + c) * T(0.5f) + half_gap;
+  const T tiny(1e-30f);
+  const T major = Sqrt(Max(major_squared, tiny));
+  const T minor = determinant / major;
 
   // Several taps are for smooth filters: what asks for nearest texels, or has no smaller levels, gets one, and that one
   // covers the whole length.
   const bool several = slot.sampler.minification == Filter::Linear && slot.sampler.mip != MipFilter::None;
-  Footprint f;
+  Footprint<T> f{};
   // Fewer taps than the ratio of the axes would blur along the minor one; more would waste.
-  const Float ratio = major / Max(minor, Float(1e-15f));
-  const Float needed = Max(-Floor(-ratio), Float(1.0f));
-  f.taps = Min(needed, Float(several ? slot.max_anisotropy : 1.0f));
-  f.taps = Select(major > Float(1.0f), f.taps, Float(1.0f));  // magnified: one tap sees it all
-  f.lod = Log2(Max(major / f.taps, Max(minor, Float(1e-15f))));
+  const T ratio = major / Max(minor, T(1e-15f));
+  const T needed = Max(-Floor(-ratio), T(1.0f));
+  f.taps = Min(needed, T(several ? slot.max_anisotropy : 1.0f));
+  f.taps = Select(major > T(1.0f), f.taps, T(1.0f));  // magnified: one tap sees it all
+  f.lod = Log2(Max(major / f.taps, Max(minor, T(1e-15f))));
   // The eigenvector of the larger singular value: of the two ways to write it, the one that does not cancel.
-  const Vec2<Float> p{major_squared - c, b}, q{b, major_squared - a};
+  const Vec2<T> p{major_squared - c, b}, q{b, major_squared - a};
   const auto use_p = a >= c;
-  const Vec2<Float> axis{Select(use_p, p.x, q.x), Select(use_p, p.y, q.y)};
-  const Float length = Sqrt(Max(Dot(axis, axis), tiny));
-  const Float scale = major / length;
-  const Mask stretched = f.taps > Float(1.0f);  // selected, not multiplied: axes that overflowed must not become NaN
-  f.major = {Select(stretched, axis.x * scale / width, Float(0.0f)),
-             Select(stretched, axis.y * scale / height, Float(0.0f))};
+  const Vec2<T> axis{Select(use_p, p.x, q.x), Select(use_p, p.y, q.y)};
+  const T length = Sqrt(Max(Dot(axis, axis), tiny));
+  const T scale = major / length;
+  const MaskOf<T> stretched = f.taps > T(1.0f);  // selected, not multiplied: axes that overflowed must not become NaN
+  f.major = {Select(stretched, axis.x * scale / width, T(0.0f)), Select(stretched, axis.y * scale / height, T(0.0f))};
   return f;
 }
 
 // Samples the texture of `slot` at interpolated coordinates `uv` with their derivatives over one pixel.
-template <int kChannels>
-HWY_INLINE Vec4<Float> SampleTexture(const TextureSlot& slot, Vec2<Float> uv_in, Vec2<Float> duv_dx_in,
-                                     Vec2<Float> duv_dy_in) {
+template <int kChannels, class T>
+HWY_INLINE Vec4<T> SampleTexture(const TextureSlot& slot, Vec2<T> uv_in, Vec2<T> duv_dx_in, Vec2<T> duv_dy_in) {
   const float* m = slot.transform;
-  const auto rotate = [&](Vec2<Float> d) HWY_ATTR {
-    return Vec2<Float>{Float(m[0]) * d.x + Float(m[1]) * d.y, Float(m[3]) * d.x + Float(m[4]) * d.y};
+  const auto rotate = [&](Vec2<T> d) HWY_ATTR {
+    return Vec2<T>{T(m[0]) * d.x + T(m[1]) * d.y, T(m[3]) * d.x + T(m[4]) * d.y};
   };
-  const Vec2<Float> turned = rotate(uv_in);
-  const Vec2<Float> uv{turned.x + Float(m[2]), turned.y + Float(m[5])};
+  const Vec2<T> turned = rotate(uv_in);
+  const Vec2<T> uv{turned.x + T(m[2]), turned.y + T(m[5])};
   const Sampler& sampler = slot.sampler;
-  const Mask yes(true), no(false);
+  const MaskOf<T> yes(true), no(false);
   const bool one_filter = sampler.magnification == sampler.minification;
   if (one_filter && slot.data->levels == 1) {
-    return SampleLevel<kChannels>(slot, uv, Int(0), sampler.magnification == Filter::Linear ? yes : no);
+    return SampleLevel<kChannels>(slot, uv, IntOf<T>(0), sampler.magnification == Filter::Linear ? yes : no);
   }
 
-  Footprint footprint = MakeFootprint(slot, rotate(duv_dx_in), rotate(duv_dy_in));
-  const Float max_level(static_cast<float>(slot.data->levels - 1));
-  const Float lod = Clamp(footprint.lod, Float(0.0f), max_level);
-  const Mask magnified = footprint.lod <= Float(0.0f);
-  const Mask linear = (magnified & (sampler.magnification == Filter::Linear ? yes : no)) |
-                      (!magnified & (sampler.minification == Filter::Linear ? yes : no));
-  if (sampler.mip == MipFilter::None) return SampleLevel<kChannels>(slot, uv, Int(0), linear);
+  const Footprint<T> footprint = MakeFootprint(slot, rotate(duv_dx_in), rotate(duv_dy_in));
+  const T max_level(static_cast<float>(slot.data->levels - 1));
+  const T lod = Clamp(footprint.lod, T(0.0f), max_level);
+  const MaskOf<T> magnified = footprint.lod <= T(0.0f), minified = !magnified;
+  const MaskOf<T> linear = (magnified & (sampler.magnification == Filter::Linear ? yes : no)) |
+                           (minified & (sampler.minification == Filter::Linear ? yes : no));
+  if (sampler.mip == MipFilter::None) return SampleLevel<kChannels>(slot, uv, IntOf<T>(0), linear);
   const bool nearest_level = sampler.mip == MipFilter::Nearest;
-  const Float base = Floor(nearest_level ? lod + Float(0.5f) : lod), blend = nearest_level ? Float(0.0f) : lod - base;
-  const Int fine = TruncateToInt(base), coarse = TruncateToInt(Min(base + Float(1.0f), max_level));
-  const bool one_level = !Any(blend > Float(0.0f));
-  const auto trilinear = [&](Vec2<Float> at) HWY_ATTR {
-    const Vec4<Float> near = SampleLevel<kChannels>(slot, at, fine, linear);
+  const T base = Floor(nearest_level ? lod + T(0.5f) : lod), blend = nearest_level ? T(0.0f) : lod - base;
+  const IntOf<T> fine = TruncateToInt(base), coarse = TruncateToInt(Min(base + T(1.0f), max_level));
+  const bool one_level = !Any(blend > T(0.0f));
+  const auto trilinear = [&](Vec2<T> at) HWY_ATTR {
+    const Vec4<T> near = SampleLevel<kChannels>(slot, at, fine, linear);
     if (one_level) return near;
-    const Vec4<Float> far = SampleLevel<kChannels>(slot, at, coarse, linear);
-    return near * (Float(1.0f) - blend) + far * blend;
+    const Vec4<T> far = SampleLevel<kChannels>(slot, at, coarse, linear);
+    return near * (T(1.0f) - blend) + far * blend;
   };
-  if (!Any(footprint.taps > Float(1.0f))) return trilinear(uv);
-  Vec4<Float> sum{};
+  if (!Any(footprint.taps > T(1.0f))) return trilinear(uv);
+  Vec4<T> sum{};
   for (int i = 0; i < 16; ++i) {
-    const Float tap(static_cast<float>(i));
-    const Mask active = tap < footprint.taps;
+    const T tap(static_cast<float>(i));
+    const MaskOf<T> active = tap < footprint.taps;
     if (!Any(active)) break;
-    const Float along = (tap + Float(0.5f)) / footprint.taps - Float(0.5f);
-    const Vec4<Float> c = trilinear({uv.x + footprint.major.x * along, uv.y + footprint.major.y * along});
-    sum = sum + c * Select(active, Float(1.0f), Float(0.0f));
+    const T along = (tap + T(0.5f)) / footprint.taps - T(0.5f);
+    const Vec4<T> c = trilinear({uv.x + footprint.major.x * along, uv.y + footprint.major.y * along});
+    sum = sum + c * Select(active, T(1.0f), T(0.0f));
   }
-  return sum * (Float(1.0f) / footprint.taps);
+  return sum * (T(1.0f) / footprint.taps);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -39,13 +39,16 @@ TEST(HashFilm, SeesOneBitAndTheShape) {
 TEST(HashImage, SeesThePixelsAndTheirKind) {
   const Image image{2, 1, 2, ChannelType::U8, Encoding::Srgb, {std::byte(1), std::byte(2), std::byte(3), std::byte(4)}};
   Sha256 hash;
-  hash.Add("facet image 2 1 2 8\n");
+  hash.Add("facet image 2 1 2 8 srgb\n");
   hash.Add(std::string_view("\1\2\3\4"));
   EXPECT_EQ(HashImage(image), hash.Finish());
   Image wider = image;
   wider.type = ChannelType::U16;
   wider.width = 1;
   EXPECT_NE(HashImage(wider), HashImage(image));
+  Image linear = image;
+  linear.encoding = Encoding::Linear;
+  EXPECT_NE(HashImage(linear), HashImage(image));
 }
 
 }  // namespace

@@ -168,6 +168,16 @@ TEST_F(ManifestFile, NamesAreUnique) {
             "goldens.json: /entries/2/name: 'a' is the name of /entries/0 too");
 }
 
+TEST_F(ManifestFile, APictureBelongsToOneEntry) {
+  const facet::Manifest manifest = ReadManifest(Scratch::Manifest(
+      R"({"name": "a", "scene": "x", "expect": {"picture": "p.png"}},
+         {"name": "b", "scene": "x", "expect": {"picture": "q/../p.png"}})"));
+  EXPECT_FALSE(manifest.entries[0].problem);
+  ASSERT_TRUE(manifest.entries[1].problem);
+  EXPECT_EQ(Local(manifest.entries[1].problem->what()),
+            "goldens.json: /entries/1/expect/picture: is the picture of /entries/0 too");
+}
+
 TEST_F(ManifestFile, RewritingChangesNothingElse) {
   const std::string text = R"({
   "version": 1,

@@ -83,9 +83,6 @@ TEST_F(CheckFile, TheHashIsThatOfTheFilm) {
 TEST_F(CheckFile, EqualFilmsAreDecidedWithoutAnyPicture) {
   Manifest(Entry("a"));
   Update();
-  Json json = ReadJson();
-  json["entries"][0]["expect"]["picture"] = "no/such/picture.png";
-  WriteJson(json);
   const std::vector<std::string> files = Files();
   CheckOptions options;
   options.pictures = true;
@@ -93,6 +90,36 @@ TEST_F(CheckFile, EqualFilmsAreDecidedWithoutAnyPicture) {
   EXPECT_EQ(entry.verdict, Verdict::Passed);
   EXPECT_TRUE(entry.expected.empty() && entry.actual.empty() && entry.heat_map.empty() && !entry.difference);
   EXPECT_EQ(Files(), files);
+}
+
+// The film does not know of exposure, tone curve and background: the picture does.
+TEST_F(CheckFile, EqualFilmsAreDevelopedAsTheirPictureWas) {
+  Manifest(Entry("a", R"("settings": {"exposure": 1}, "expect": {"picture": "a.png"})"));
+  Update();
+  EXPECT_EQ(Only().verdict, Verdict::Passed);
+  Json json = ReadJson();
+  json["entries"][0]["settings"]["exposure"] = -1;
+  WriteJson(json);
+  const CheckedEntry entry = Only();
+  EXPECT_EQ(entry.verdict, Verdict::Failed);
+  EXPECT_EQ(entry.film, entry.expected_film);
+  EXPECT_EQ(entry.message.rfind("the film is equal, the developed picture is not: ", 0), 0u) << entry.message;
+  json["entries"][0]["expect"]["max-flip"] = 1;
+  WriteJson(json);
+  EXPECT_EQ(Only().verdict, Verdict::Passed);
+}
+
+TEST_F(CheckFile, AMissingOrBrokenPictureIsAnErrorThoughTheFilmIsEqual) {
+  Manifest(Entry("a", R"("expect": {"picture": "a.png"})"));
+  Update();
+  Write("a.png", "no picture");
+  CheckedEntry entry = Only();
+  EXPECT_EQ(entry.verdict, Verdict::Error);
+  EXPECT_NE(entry.place.find("/entries/0/expect/picture"), std::string::npos) << entry.place;
+  std::filesystem::remove(folder_ / "a.png");
+  EXPECT_EQ(Only().verdict, Verdict::Error);
+  EXPECT_EQ(Update().verdict, Verdict::Updated);
+  EXPECT_EQ(Only().verdict, Verdict::Passed);
 }
 
 TEST_F(CheckFile, AnotherFilmFailsThoughThePictureIsEqual) {

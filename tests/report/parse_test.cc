@@ -27,6 +27,19 @@ TEST(ParseNumber, TakesDecimalNumbers) {
   EXPECT_EQ(ParseNumber("--x", "10", {-10, 10}), 10.0);
 }
 
+TEST(ParseDuration, TakesUnits) {
+  EXPECT_EQ(ParseDuration("--x", "200ms", {0, 100}), 0.2);
+  EXPECT_EQ(ParseDuration("--x", "1.5s", {0, 100}), 1.5);
+  EXPECT_EQ(ParseDuration("--x", "3", {0, 100}), 3.0);
+  EXPECT_EQ(ParseDuration("--x", "2min", {0, 200}), 120.0);
+  EXPECT_EQ(ParseDuration("--x", "0.5h", {0, 2000}), 1800.0);
+  for (const char* text : {"", "s", "1m", "1 s", "-1s", "nan", "nans", "inf", "1e9s", "101s", "1sms", "s1"}) {
+    const std::string complaint = Complaint([&] { ParseDuration("--x", text, {0, 100}); });
+    EXPECT_NE(complaint.find("--x"), std::string::npos) << text;
+    EXPECT_NE(complaint.find("0 to 100 seconds"), std::string::npos) << text;
+  }
+}
+
 TEST(ParseNumber, RefusesEverythingElse) {
   for (const char* text :
        {"",    " ",  "1 ",   " 1",  "1x",  "x",   "nan",   "NaN",    "-nan",   "inf",     "-inf",  "infinity",

@@ -23,7 +23,7 @@ namespace HWY_NAMESPACE {
 // `out`: kSurfaceNumbers arrays of `stride` numbers.
 void InterpolateAll(const ShadeTask& task, float* out, std::size_t stride) {
   for (std::size_t i = 0; i < task.count; i += LaneCount()) {
-    const Surface<Float> s = InterpolateSurface(task, i);
+    const Surface<Float> s = InterpolateSurface<Float>(task, i);
     float* p = out + i;
     const auto put = [&](Float value) HWY_ATTR {
       Store(value, p);

@@ -30,8 +30,12 @@ TEST(Target, Names) {
 TEST(Target, LargerOnesIncludeSmallerOnes) {
   EXPECT_TRUE(TargetIsAvailable(Target::Scalar));
   // Of those that the build has: FACET_DISABLED_TARGETS may leave out any.
-  if ((HWY_TARGETS & HWY_AVX2) != 0) EXPECT_LE(TargetIsAvailable(Target::Avx3), TargetIsAvailable(Target::Avx2));
-  if ((HWY_TARGETS & HWY_SSE4) != 0) EXPECT_LE(TargetIsAvailable(Target::Avx2), TargetIsAvailable(Target::Sse4));
+  if ((HWY_TARGETS & HWY_AVX2) != 0) {
+    EXPECT_LE(TargetIsAvailable(Target::Avx3), TargetIsAvailable(Target::Avx2));
+  }
+  if ((HWY_TARGETS & HWY_SSE4) != 0) {
+    EXPECT_LE(TargetIsAvailable(Target::Avx2), TargetIsAvailable(Target::Sse4));
+  }
   EXPECT_FALSE(TargetIsAvailable(Target::Sse4) && TargetIsAvailable(Target::Neon));
 }
 

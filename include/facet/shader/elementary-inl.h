@@ -20,39 +20,18 @@
 
 #include "facet/shader/elementary_double.h"
 #include "facet/shader/lane-inl.h"
+#include "facet/shader/lookup-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace facet {
 namespace HWY_NAMESPACE {
 
-// --- Integers beside float, as Int stands beside Float --------------------------------------------------------------
-
-template <class T>
-struct IntTraits;
-template <>
-struct IntTraits<float> {
-  using Type = std::int32_t;
-};
-template <>
-struct IntTraits<Float> {
-  using Type = Int;
-};
-template <class T>
-using IntOf = typename IntTraits<T>::Type;
+// --- Bits of float, as of Float ------------------------------------------------------------------------------------
 
 HWY_INLINE std::int32_t BitsOf(float a) { return std::bit_cast<std::int32_t>(a); }
 HWY_INLINE float FloatFromBits(std::int32_t a) { return std::bit_cast<float>(a); }
 HWY_INLINE float ToFloat(std::int32_t a) { return static_cast<float>(a); }
-HWY_INLINE std::int32_t TruncateToInt(float a) { return static_cast<std::int32_t>(a); }
-HWY_INLINE std::int32_t Select(bool m, std::int32_t a, std::int32_t b) { return m ? a : b; }
-template <int kBits>
-HWY_INLINE std::int32_t ShiftLeft(std::int32_t a) {
-  return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) << kBits);
-}
-template <int kBits>
-HWY_INLINE std::int32_t ShiftRightArithmetic(std::int32_t a) {
-  return a >> kBits;
-}
+void BitsOf(double) = delete;  // what is built on bits is for float; double has functions of its own
 
 // --- Parts ----------------------------------------------------------------------------------------------------------
 
@@ -192,7 +171,7 @@ HWY_INLINE TwoFloats<T> ExtendedLog2(T x) {
   return {high, rest - (high - sum)};
 }
 
-// x^y for x >= 0; NaN for x < 0 (-0 counts as 0). Below 4 ULP. Pow(x, 0) = Pow(1, y) = 1, even for NaN.
+// x^y for x >= 0; NaN for x < 0 (-0 counts as 0). Below 6 ULP (docs/determinism.md). Pow(x, 0) = Pow(1, y) = 1, even for NaN.
 template <class T>
 HWY_INLINE T Pow(T x, T y) {
   const T zero = T(0.0f), one = T(1.0f), infinity = T(HUGE_VALF);

@@ -1,0 +1,54 @@
+// Light from all around as the file's picture says: read in double, and sampled where it is bright.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "facet/render.h"
+
+namespace facet {
+
+// The equirectangular picture, bilinear between the centres of its pixels: what the rasterizer prefilters, and shows as
+// a background. Directions are unit, world axes. Immutable.
+class ExactEnvironment {
+ public:
+  // Of Kind::Studio or Kind::Image. Throws Error(InvalidUsage) for an image that breaks its own rules.
+  explicit ExactEnvironment(const EnvironmentSettings& settings);
+
+  struct Light {
+    glm::dvec3 direction{0.0};
+    glm::dvec3 radiance{0.0};
+    double density = 0.0;  // of Sample() choosing this direction, in 1/steradian
+  };
+  Light Toward(const glm::dvec3& direction) const;
+
+  // A direction, distributed as the picture's luminance (mean of R, G, B) but for the change of a row's solid angle
+  // from its top to its bottom. `random`: uniform in (0, 1)^2; neighbouring points give neighbouring directions. Not
+  // for a black picture.
+  Light Sample(const glm::dvec2& random) const;
+  bool IsBlack() const { return !(total_ > 0.0); }
+
+ private:
+  // The bilinear patch between four pixels' centres. Above the first row's and below the last row's there are patches
+  // of half a pixel's height, that do not change along it; so there are height + 1 bands of patches.
+  struct Patch {
+    const float* corner[4];  // RGB: top left, top right, bottom left, bottom right
+    double Luminance(int corner_index) const;
+  };
+  Patch PatchAt(int band, int column) const;
+  double BandTop(int band) const { return band == 0 ? -0.5 : band - 1.0; }  // in pixels from the first row's centre
+  double BandHeight(int band) const { return band == 0 || band == height_ ? 0.5 : 1.0; }
+  Light Read(int band, int column, double x, double y, double sine_of_polar) const;
+  glm::dvec3 ToWorld(const glm::dvec3& d) const;
+
+  int width_ = 0, height_ = 0;
+  std::vector<float> rgb_;
+  double cosine_ = 1.0, sine_ = 0.0;  // of the rotation
+  double intensity_ = 1.0;
+  std::vector<double> sine_of_band_;  // of the polar angle at each band's middle
+  // Running sums of luminance * area * that sine: of each band's patches, and of the bands.
+  std::vector<double> in_band_, bands_;
+  double total_ = 0.0;
+};
+
+}  // namespace facet

@@ -1,0 +1,75 @@
+// Who is seen at a point of the picture: by trying, in double and without snapping.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "reference/surface_exact.h"
+#include "reference/view_exact.h"
+#include "scene/pose.h"
+
+namespace facet {
+
+// All triangles, lines and points of a posed scene in front of a camera, back faces left out. Refers to the posed
+// scene.
+class ExactGeometry {
+ public:
+  // `double_sided`: of each of the scene's drawables.
+  ExactGeometry(const ExactView& view, const PosedScene& posed, const std::vector<bool>& double_sided);
+
+  struct Hit {
+    std::uint32_t primitive = 0;  // in the order of the scene
+    float depth = 0.0f;           // see ExactView::DepthAt
+    glm::dvec3 weight{0.0};       // barycentric
+  };
+  // Everything at a place of the picture (pixels), in the order of the scene, of those primitives that `candidates`
+  // lists. A place on an edge that two triangles share belongs to one of them.
+  void HitsAt(const glm::dvec2& place, const std::vector<std::uint32_t>& candidates, std::vector<Hit>& hits) const;
+
+  // The primitives whose bounds touch pixel (x, y), in order. A mere saving: HitsAt() of all gives the same.
+  void CandidatesOf(int x, int y, std::vector<std::uint32_t>& candidates) const;
+  std::size_t PrimitiveCount() const { return primitives_.size(); }
+
+  std::size_t DrawableOf(const Hit& hit) const { return primitives_[hit.primitive].drawable; }
+  SurfacePoint SurfaceAt(const Hit& hit) const;
+
+ private:
+  struct Placed {
+    const Primitive* geometry;
+    glm::dmat3 eye_relative_from_mesh, normal_from_mesh;
+    glm::dvec3 origin_eye;
+    bool mirrored;
+  };
+  // A line or point: its middle line in pixels, and depth there; half a pixel wide to each side.
+  struct WideShape {
+    glm::dvec2 from{0.0}, to{0.0};
+    double from_depth = 0.0, to_depth = 0.0;
+    bool is_line = false;
+  };
+  struct Shape {
+    glm::dvec3 screen[3];
+    double distance[3];
+    float left, right, top, bottom;  // pixels
+    std::uint32_t drawable, index;
+    std::int32_t wide = -1;  // index into wide_; -1: a triangle
+    bool is_back = false;
+  };
+
+  glm::dvec3 EyeRelative(const Placed& placed, std::uint32_t vertex) const;
+  void AddTriangle(Shape& shape, bool double_sided);
+  void AddLine(Shape& shape);
+  void AddPoint(Shape& shape);
+  void Add(Shape& shape, const glm::dvec2& low, const glm::dvec2& high);
+  bool HitTriangle(const Shape& shape, const glm::dvec3& screen, Hit& hit) const;
+  bool HitWide(const Shape& shape, const glm::dvec2& place, Hit& hit) const;
+
+  const ExactView view_;
+  std::vector<Placed> placed_;
+  std::vector<Shape> primitives_;
+  std::vector<WideShape> wide_;
+  int columns_ = 0;
+  std::vector<std::vector<std::uint32_t>> tiles_;
+};
+
+}  // namespace facet

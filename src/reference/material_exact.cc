@@ -1,0 +1,94 @@
+#include "reference/material_exact.h"
+
+#include <map>
+
+#include "facet/error.h"
+
+namespace facet {
+namespace {
+
+constexpr MaterialFeature kFeatureOfUse[5] = {kBaseColorTexture, kMetallicRoughnessTexture, kNormalTexture,
+                                              kOcclusionTexture, kEmissiveTexture};
+
+}  // namespace
+
+glm::dvec4 ExactMaterial::Read(int use, const SurfacePoint& point) const {
+  const Use& u = uses_[use];
+  return u.texels->Sample(u.transform(point.Uv(u.tex_coord)), u.sampler);
+}
+
+glm::dvec4 ExactMaterial::BaseColor(const SurfacePoint& point) const {
+  const glm::dvec4 color = glm::dvec4(material_.base_color_factor) * point.color;
+  return Has(kBaseColorTexture) ? color * Read(0, point) : color;
+}
+
+glm::dvec3 ExactMaterial::Normal(const SurfacePoint& point) const {
+  if (!Has(kNormalTexture)) return point.normal;
+  const glm::dvec3 texel = glm::dvec3(Read(2, point)) * 2.0 - 1.0;
+  const double scale = double(material_.normal_scale);
+  const glm::dvec3 tangent(point.tangent);
+  const glm::dvec3 bitangent = glm::cross(point.interpolated_normal, tangent) * point.tangent.w;
+  return UnitOr(tangent * (texel.x * scale) + bitangent * (texel.y * scale) + point.interpolated_normal * texel.z,
+                point.normal);
+}
+
+ShadingInputs ExactMaterial::Inputs(const SurfacePoint& point, const glm::dvec3& base_color) const {
+  ShadingInputs in;
+  in.base_color = base_color;
+  in.metallic = double(material_.metallic_factor);
+  in.perceptual_roughness = double(material_.roughness_factor);
+  if (Has(kMetallicRoughnessTexture)) {
+    const glm::dvec4 texel = Read(1, point);
+    in.perceptual_roughness *= texel.y;
+    in.metallic *= texel.z;
+  }
+  in.normal = Normal(point);
+  if (Has(kOcclusionTexture)) in.occlusion = 1.0 + double(material_.occlusion_strength) * (Read(3, point).x - 1.0);
+  if (Has(kEmission)) {
+    in.emissive = glm::dvec3(material_.emissive_factor) * double(material_.emissive_strength);
+    if (Has(kEmissiveTexture)) in.emissive *= glm::dvec3(Read(4, point));
+  }
+  return in;
+}
+
+std::vector<ExactMaterial> MakeExactMaterials(const Scene& scene, const FramePlan& plan,
+                                              std::vector<std::string>& notes) {
+  std::map<int, std::shared_ptr<const Image>> images;
+  const auto decode = [&](int index) {
+    const auto [place, is_new] = images.try_emplace(index);
+    if (!is_new) return place->second;
+    const ImageSource& source = *scene.images[std::size_t(index)].source;
+    try {
+      place->second = std::make_shared<const Image>(source.Decode());
+    } catch (const Error& error) {
+      if (error.code() != ErrorCode::InvalidInput && error.code() != ErrorCode::NotFound) throw;
+      notes.push_back(source.Name() + ": " + error.message() + " (drawn without this texture)");
+    }
+    return place->second;
+  };
+  std::vector<std::shared_ptr<const ExactTexels>> textures;
+  for (const PlannedTexture& planned : plan.textures) {
+    const auto image = decode(planned.image);
+    textures.push_back(image == nullptr ? nullptr : std::make_shared<const ExactTexels>(image, planned.role));
+  }
+
+  std::vector<ExactMaterial> result(plan.materials.size());
+  for (std::size_t m = 0; m < result.size(); ++m) {
+    const PlannedMaterial& planned = plan.materials[m];
+    ExactMaterial& to = result[m];
+    if (planned.material >= 0) to.material_ = scene.materials[std::size_t(planned.material)];
+    to.features_ = planned.frame.features;
+    const Material& from = to.material_;
+    const TextureRef* refs[5] = {&from.base_color_texture, &from.metallic_roughness_texture, &from.normal_texture,
+                                 &from.occlusion_texture, &from.emissive_texture};
+    for (int i = 0; i < 5; ++i) {
+      if (planned.textures[i] < 0) continue;
+      to.uses_[i] = {textures[std::size_t(planned.textures[i])], scene.textures[std::size_t(refs[i]->texture)].sampler,
+                     refs[i]->tex_coord, UvTransform(*refs[i])};
+      if (to.uses_[i].texels == nullptr) to.features_ &= ~MaterialFeatures{kFeatureOfUse[i]};
+    }
+  }
+  return result;
+}
+
+}  // namespace facet

@@ -1,0 +1,12 @@
+// The same picture without rounding in between.
+#pragma once
+
+#include "facet/render.h"
+
+namespace facet {
+
+// Render(), with every fragment shaded in double (see shade/shade_in_double.h): its difference to Render()'s film is
+// the rounding error. `settings.shader` must be null. Throws what Render() throws, and InvalidUsage for a shader.
+Film RenderInDouble(const Scene& scene, const RenderSettings& settings);
+
+}  // namespace facet

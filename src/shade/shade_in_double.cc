@@ -1,0 +1,41 @@
+#include "shade/shade_in_double.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "shade/interpolate-inl.h"
+#include "shade/metallic_roughness-inl.h"
+#include "shade/shade_task.h"
+
+namespace facet {
+namespace {
+
+namespace lanes = HWY_NAMESPACE;
+
+bool IsFiniteFloat(double x) { return std::fabs(x) <= double{std::numeric_limits<float>::max()}; }
+
+class DoubleShader final : public FragmentShader {
+ public:
+  void Shade(const ShadeTask& task) const override {
+    const lanes::MaterialView<double> material(*task.material);
+    const lanes::LightingView<double> lighting(*task.lighting);
+    for (std::size_t i = 0; i < task.count; ++i) {
+      const lanes::Shaded<double> shaded =
+          lanes::MetallicRoughness()(lanes::InterpolateSurface<double>(task, i), material, lighting);
+      const lanes::Vec3<double> c = shaded.color;
+      const bool finite = IsFiniteFloat(c.x) && IsFiniteFloat(c.y) && IsFiniteFloat(c.z) && IsFiniteFloat(shaded.alpha);
+      task.red[i] = finite ? static_cast<float>(c.x) : 0.0f;
+      task.green[i] = finite ? static_cast<float>(c.y) : 0.0f;
+      task.blue[i] = finite ? static_cast<float>(c.z) : 0.0f;
+      task.alpha[i] = finite ? static_cast<float>(std::clamp(shaded.alpha, 0.0, 1.0)) : 0.0f;
+      if (!finite) ++*task.non_finite;
+    }
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<const FragmentShader> MakeDoubleShader() { return std::make_unique<DoubleShader>(); }
+
+}  // namespace facet
