@@ -144,18 +144,30 @@ std::string ReferenceText(const ErrorReport& report) {
   return html + "</ul>\n";
 }
 
-// Everything that both diagrams show alike; x is left open.
-Diagram DiagramOf(const ErrorReport& report, const std::vector<Ranked>& ranked) {
+// What a diagram has on its error axis.
+struct Measure {
+  const char* name;
+  const char* y_title;
+  double FilmError::*error;
+};
+constexpr Measure kRelative = {"Error", "error: relative RMSE, linear light", &FilmError::relative_rmse};
+constexpr Measure kFlip = {"FLIP", "mean FLIP of the developed pictures", &FilmError::flip};
+constexpr Measure kLargest = {"Largest difference", "largest difference, linear light", &FilmError::largest};
+
+// Everything that all diagrams show alike; x is left open.
+Diagram DiagramOf(const ErrorReport& report, const std::vector<Ranked>& ranked, const Measure& measure) {
   Diagram diagram;
-  diagram.y_title = "error: relative RMSE, linear light";
-  diagram.levels.push_back({report.reference.relative_error, "reference's own error", true});
-  if (report.rounding) diagram.levels.push_back({report.rounding->relative_rmse, "rounding error", false});
+  diagram.y_title = measure.y_title;
+  if (measure.error == kRelative.error) {
+    diagram.levels.push_back({report.reference.relative_error, "reference's own error", true});
+  }
+  if (report.rounding) diagram.levels.push_back({(*report.rounding).*measure.error, "rounding error", false});
   for (const Ranked& r : ranked) {
     DiagramPoint& point = diagram.points.emplace_back();
-    point.error = r.point->error.relative_rmse;
+    point.error = r.point->error.*measure.error;
     point.number = r.number;
-    point.title = r.number + ": " + SettingsWords(r.point->changed) + ", relative RMSE " + ErrorWords(point.error) +
-                  ", " + TimeWords(r.point->seconds);
+    point.title = r.number + ": " + SettingsWords(r.point->changed) + ", relative RMSE " +
+                  ErrorWords(r.point->error.relative_rmse) + ", " + TimeWords(r.point->seconds);
     if (r.point->peak_bytes > 0) point.title += ", " + BytesWords(double(r.point->peak_bytes));
     point.link = (HasPictures(*r.point) ? "#picture-" : "#point-") + r.number;
     if (r.asked) point.label = AskedName(report);
@@ -173,34 +185,40 @@ std::string Captioned(const Diagram& diagram, const std::string& caption) {
   return html + "</figcaption>\n</figure>\n";
 }
 
-std::string TimeDiagram(const ErrorReport& report, const std::vector<Ranked>& ranked) {
-  Diagram diagram = DiagramOf(report, ranked);
+// Marks the points that no other one beats in both directions.
+void MarkFront(std::vector<DiagramPoint>& points) {
+  for (DiagramPoint& point : points) {
+    point.front = std::none_of(points.begin(), points.end(), [&](const DiagramPoint& other) {
+      return other.x <= point.x && other.error <= point.error && (other.x < point.x || other.error < point.error);
+    });
+  }
+}
+
+std::string TimeDiagram(const ErrorReport& report, const std::vector<Ranked>& ranked, const Measure& measure,
+                        const std::string& caption) {
+  Diagram diagram = DiagramOf(report, ranked, measure);
   double least = std::numeric_limits<double>::infinity();
   for (const ReportPoint& point : report.points) {
     if (point.seconds > 0.0) least = std::min(least, point.seconds);
   }
   const Unit unit = UnitFor(kTimes, least);
-  diagram.name = "Error against run time";
+  diagram.name = std::string(measure.name) + " against run time";
   diagram.x_title = std::string("run time (") + unit.name + ")";
   for (std::size_t i = 0; i < ranked.size(); ++i) {
     const ReportPoint& from = *ranked[i].point;
     DiagramPoint& point = diagram.points[i];
     point.x = from.seconds / unit.size;
-    point.front = from.pareto;
     if (from.runs > 1) {
       point.x_low = from.seconds_low / unit.size;
       point.x_high = from.seconds_high / unit.size;
     }
   }
-  return Captioned(
-      diagram,
-      "A dot is a choice of settings, at the median of its runs; the bar spans them from the fastest to the "
-      "slowest. Filled and joined: the Pareto front, where no other point has both less error and less "
-      "time. Numbers are those of the table.");
+  MarkFront(diagram.points);
+  return Captioned(diagram, caption);
 }
 
 std::string MemoryDiagram(const ErrorReport& report, const std::vector<Ranked>& ranked) {
-  const Diagram all = DiagramOf(report, ranked);
+  const Diagram all = DiagramOf(report, ranked, kRelative);
   Diagram diagram = all;
   diagram.points.clear();
   std::size_t least = 0;
@@ -214,11 +232,7 @@ std::string MemoryDiagram(const ErrorReport& report, const std::vector<Ranked>& 
     diagram.points.push_back(all.points[i]);
     diagram.points.back().x = double(ranked[i].point->peak_bytes) / unit.size;
   }
-  for (DiagramPoint& point : diagram.points) {
-    point.front = std::none_of(diagram.points.begin(), diagram.points.end(), [&](const DiagramPoint& other) {
-      return other.x <= point.x && other.error <= point.error && (other.x < point.x || other.error < point.error);
-    });
-  }
+  MarkFront(diagram.points);
   diagram.name = "Error against memory";
   diagram.x_title = std::string("most memory while rendering (") + unit.name + ")";
   std::string caption = "The same points. Filled and joined: no other point has less error without more memory.";
@@ -349,9 +363,15 @@ std::string ToHtml(const ErrorReport& report) {
   return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
          "<meta name=\"viewport\" content=\"width=device-width\"/>\n<title>Error against run time: " +
          Escaped(report.scene) + "</title>\n<style>" + std::string(kStyle) + "</style>\n</head>\n<body>\n" +
-         Heading(report) + ReferenceText(report) + "<div class=\"diagrams\">\n" + TimeDiagram(report, ranked) +
-         MemoryDiagram(report, ranked) + "</div>\n" + CostsTable(report) + Rounding(report) +
-         PointsTable(report, ranked) + Gallery(ranked) + "</body>\n</html>\n";
+         Heading(report) + ReferenceText(report) + "<div class=\"diagrams\">\n" +
+         TimeDiagram(report, ranked, kRelative,
+                     "A dot is a choice of settings, at the median of its runs; the bar spans them from the fastest to "
+                     "the slowest. Filled and joined: the Pareto front, where no other point has both less error and "
+                     "less time. Numbers are those of the table.") +
+         MemoryDiagram(report, ranked) +
+         TimeDiagram(report, ranked, kFlip, "What people see of the error, with a front of its own.") +
+         TimeDiagram(report, ranked, kLargest, "The worst pixel: often one glint.") + "</div>\n" + CostsTable(report) +
+         Rounding(report) + PointsTable(report, ranked) + Gallery(ranked) + "</body>\n</html>\n";
 }
 
 }  // namespace facet

@@ -1,5 +1,6 @@
 // What `facet report` writes: the page and its diagrams, JSON, CSV, and the choice of a point.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -39,7 +40,8 @@ std::vector<std::byte> Bytes(const std::string& text) {
 // Python's parser says whether a text is well-formed XML, and what `check` (Python, over the tree `t`) finds.
 void ExpectXml(const std::string& text, const std::string& check) {
   if (std::system("python3 -c 'import xml.etree' 2>&1") != 0) GTEST_SKIP() << "needs python3";
-  const std::string path = testing::TempDir() + "facet_report_output_test.xml";
+  // Tests run beside one another, each in a process of its own.
+  const std::string path = testing::TempDir() + "facet-report-" + std::to_string(getpid()) + ".xml";
   std::ofstream(path, std::ios::binary) << text;
   const std::string command =
       "python3 -c 'import sys, xml.etree.ElementTree as e; t = e.parse(sys.argv[1]).getroot(); " + check + "' '" +
@@ -204,9 +206,9 @@ TEST(ErrorReportPage, IsWellFormedAndNeedsNothingElse) {
   EXPECT_TRUE(Contains(html, "data:image/png;base64,b25l\""));
   EXPECT_TRUE(Contains(html, "data:image/png;base64,dHdv\""));
   EXPECT_TRUE(Contains(html, "prefers-color-scheme: dark"));
-  // Two diagrams of 13 dots; every link has its target.
+  // Four diagrams of 13 dots; every link has its target.
   ExpectXml(html,
-            "assert len(list(t.iter(\"svg\"))) == 2; assert len(list(t.iter(\"circle\"))) == 26; "
+            "assert len(list(t.iter(\"svg\"))) == 4; assert len(list(t.iter(\"circle\"))) == 52; "
             "assert len(list(t.iter(\"img\"))) == 2; ids = [x.get(\"id\") for x in t.iter() if x.get(\"id\")]; "
             "assert len(ids) == len(set(ids)); "
             "assert all(a.get(\"href\")[1:] in ids for a in t.iter(\"a\"))");
@@ -229,11 +231,11 @@ TEST(ErrorReportPage, EscapesWhatItIsGiven) {
 TEST(ErrorReportPage, MarksTheSettingsAskedFor) {
   ErrorReport report = SampleErrorReport();
   report.settings.clear();
-  EXPECT_EQ(CountOf(ToHtml(report), ">default</text>"), 2u);
+  EXPECT_EQ(CountOf(ToHtml(report), ">default</text>"), 4u);
   report.settings = {{"samples", "3"}};
   const std::string html = ToHtml(report);
   EXPECT_EQ(CountOf(html, ">default</text>"), 0u);
-  EXPECT_EQ(CountOf(html, ">asked for</text>"), 2u);
+  EXPECT_EQ(CountOf(html, ">asked for</text>"), 4u);
 }
 
 TEST(ErrorReportPage, ListsPointsByError) {
@@ -261,8 +263,8 @@ TEST(ErrorReportPage, SaysWhatCannotBeDrawnAndStaysWhole) {
   EXPECT_TRUE(Contains(html, "3 points have a zero or no finite number"));
   EXPECT_TRUE(Contains(html, "1 point is left out, for want of a known memory"));
   EXPECT_TRUE(Contains(html, "The rounding error was not measured"));
-  ExpectXml(html, "assert len(list(t.iter(\"circle\"))) == 25");
-  ExpectXml(ToHtml(ErrorReport()), "assert len(list(t.iter(\"svg\"))) == 1");  // no points at all
+  ExpectXml(html, "assert len(list(t.iter(\"circle\"))) == 51");
+  ExpectXml(ToHtml(ErrorReport()), "assert len(list(t.iter(\"svg\"))) == 3");  // no points at all
 }
 
 TEST(ErrorReportPage, TellsRoundingFromApproximation) {
