@@ -7,6 +7,8 @@
 #include "material/closure-inl.h"
 #include "math/elementary.h"
 
+// Compiled for the baseline, as the functions that it calls are: on Arm they have attributes that must agree.
+HWY_BEFORE_NAMESPACE();
 namespace facet {
 namespace {
 
@@ -140,3 +142,4 @@ glm::dvec3 RadianceTowardEye(const ShadingInputs& in, const SurfacePoint& point,
 }
 
 }  // namespace facet
+HWY_AFTER_NAMESPACE();

@@ -8,6 +8,8 @@
 #include "shade/metallic_roughness-inl.h"
 #include "shade/shade_task.h"
 
+// Compiled for the baseline, as the functions that it calls are: on Arm they have attributes that must agree.
+HWY_BEFORE_NAMESPACE();
 namespace facet {
 namespace {
 
@@ -39,3 +41,4 @@ class DoubleShader final : public FragmentShader {
 std::unique_ptr<const FragmentShader> MakeDoubleShader() { return std::make_unique<DoubleShader>(); }
 
 }  // namespace facet
+HWY_AFTER_NAMESPACE();
