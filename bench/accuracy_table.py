@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Prints the table of docs/accuracy.md: where the default settings lie among all that `facet report` measures.
 
-    bench/accuracy_table.py [--facet build/release/facet] [--budget 60s] [--size 256x256] [--output FOLDER] [SCENE...]
+    bench/accuracy_table.py [--facet build/release/facet] [--budget 60s] [--size 256x256] [--output FOLDER]
+                            [--environment FILE] [--error relative_rmse|flip|rmse|largest] [SCENE...]
 
 Scenes default to the bundled ones and some of the corpus (FACET_CORPUS, or ../shared/corpus). With --output the reports
 are kept there as HTML and JSON.
@@ -27,10 +28,12 @@ def default_scenes():
     return scenes
 
 
-def measure(facet, scene, size, budget, folder):
+def measure(facet, scene, size, budget, environment, folder):
     stored = folder / (scene.stem + ".json")
     command = [facet, "report", str(scene), "-o", str(stored), "-o", str(folder / (scene.stem + ".html")),
                "--size", size, "--budget", budget, "--quiet"]
+    if environment:
+        command += ["--environment", environment]
     subprocess.run(command, check=True)
     return json.loads(stored.read_text())
 
@@ -39,18 +42,18 @@ def words(changed):
     return " ".join(f"{option} {value}" for option, value in sorted(changed.items())) or "the default"
 
 
-def row(report):
+def row(report, measure_of):
     points = report["points"]
     default = points[0]
-    error, seconds = default["error"]["relative_rmse"], default["seconds"]
+    error, seconds = default["error"][measure_of], default["seconds"]
     # What else has no more error, and what else takes no more time.
-    faster = min((p for p in points if p["error"]["relative_rmse"] <= error), key=lambda p: p["seconds"])
-    better = min((p for p in points if p["seconds"] <= seconds), key=lambda p: p["error"]["relative_rmse"])
+    faster = min((p for p in points if p["error"][measure_of] <= error), key=lambda p: p["seconds"])
+    better = min((p for p in points if p["seconds"] <= seconds), key=lambda p: p["error"][measure_of])
     rounding = (report.get("rounding") or {}).get("relative_rmse")
     return [report["scene"], str(len(points)), f"{1e3 * seconds:.1f}", f"{error:.4f}",
             f"{report['reference']['relative_error']:.4f}", "" if rounding is None else f"{rounding:.1e}",
             f"{seconds / faster['seconds']:.2f} ({words(faster['changed'])})",
-            f"{error / max(better['error']['relative_rmse'], 1e-300):.2f} ({words(better['changed'])})"]
+            f"{error / max(better['error'][measure_of], 1e-300):.2f} ({words(better['changed'])})"]
 
 
 def main():
@@ -59,9 +62,11 @@ def main():
     parser.add_argument("--budget", default="60s")
     parser.add_argument("--size", default="256x256")
     parser.add_argument("--output", type=pathlib.Path)
+    parser.add_argument("--environment")
+    parser.add_argument("--error", default="relative_rmse", choices=["relative_rmse", "flip", "rmse", "largest"])
     parser.add_argument("scenes", nargs="*", type=pathlib.Path)
     arguments = parser.parse_args()
-    head = ["scene", "points", "default, ms", "relative RMSE", "reference's own", "rounding",
+    head = ["scene", "points", "default, ms", arguments.error, "reference's own", "rounding",
             "default's time / fastest with no more error", "default's error / least in no more time"]
     print("| " + " | ".join(head) + " |")
     print("|" + "---|" * len(head))
@@ -69,8 +74,8 @@ def main():
         folder = arguments.output or pathlib.Path(scratch)
         folder.mkdir(parents=True, exist_ok=True)
         for scene in arguments.scenes or default_scenes():
-            report = measure(arguments.facet, scene, arguments.size, arguments.budget, folder)
-            print("| " + " | ".join(row(report)) + " |", flush=True)
+            report = measure(arguments.facet, scene, arguments.size, arguments.budget, arguments.environment, folder)
+            print("| " + " | ".join(row(report, arguments.error)) + " |", flush=True)
     return 0
 
 

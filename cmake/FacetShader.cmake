@@ -33,6 +33,7 @@ FACET_EXPORT(Shade@name@);
 class @name@Shader final : public FragmentShader {
  public:
   void Shade(const ShadeTask& task) const override { FACET_DISPATCH(Shade@name@)(task); }
+  LightUse Light() const override { return LightUseOf<HWY_NAMESPACE::@name@>(); }
 };
 }  // namespace
 std::unique_ptr<const FragmentShader> Make@name@() { return std::make_unique<@name@Shader>(); }

@@ -3,6 +3,7 @@
 
 FACET_SHADER_BEGIN
 struct Toon {
+  static constexpr LightUse kLight = LightUse::None;  // of the scene: it brings its own lamp
   template <class T>
   HWY_INLINE Shaded<T> operator()(const Surface<T>& surface, const MaterialView<T>& material,
                                   const LightingView<T>&) const {

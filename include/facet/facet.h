@@ -5,6 +5,7 @@
 #include "facet/compare.h"
 #include "facet/digest.h"
 #include "facet/error.h"
+#include "facet/explain.h"
 #include "facet/film.h"
 #include "facet/image.h"
 #include "facet/load.h"

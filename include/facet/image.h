@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -49,12 +50,19 @@ struct ImageHeader {
   std::size_t bytes = 0;  // of the whole encoded picture
 };
 
+// Takes rows of a picture as they are decoded, top to bottom: an Image of some of them (valid during the call), and how
+// many the whole picture has.
+using RowReceiver = std::function<void(const Image& rows, int height)>;
+
 // A picture that is decoded only when it is needed. Implementations are immutable and thread-safe.
 class ImageSource {
  public:
   virtual ~ImageSource() = default;
   // The decoded picture. Throws Error (InvalidInput, NotFound, MissingModule).
   virtual Image Decode() const = 0;
+  // The same picture piece by piece, where the format allows without ever having it whole. Throws what Decode() throws,
+  // maybe after some rows, and what `receive` throws.
+  virtual void DecodeRows(const RowReceiver& receive) const;
   // What a message calls it: a file name, or "image 3 of scene.glb".
   virtual std::string Name() const = 0;
   // What the first bytes say, without decoding; nullopt where they say nothing, or are not there. It is no promise that

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <glm/glm.hpp>
+#include <initializer_list>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -73,6 +74,39 @@ enum class IrradianceMethod : std::uint8_t { Convolution, SphericalHarmonics };
 // Whose tangents normal maps are read with. Generated: MikkTSpace's, also where the file has some.
 enum class TangentSource : std::uint8_t { File, Generated };
 
+// --- Leaving out ------------------------------------------------------------------------------------------------------
+
+// What a scene may have and a picture can do without. Bits of a mask.
+enum class Feature : std::uint32_t {
+  BaseColorTexture = 1u << 0,
+  MetallicRoughnessTexture = 1u << 1,
+  NormalTexture = 1u << 2,
+  Occlusion = 1u << 3,         // the texture
+  Emission = 1u << 4,          // factor and texture
+  VertexColors = 1u << 5,
+  EnvironmentLight = 1u << 6,  // the background stays
+  PunctualLights = 1u << 7,
+  AlphaTest = 1u << 8,         // MASK is drawn as OPAQUE
+  Blending = 1u << 9,          // BLEND is drawn as OPAQUE
+  Skins = 1u << 10,            // meshes stand where their nodes do
+  MorphTargets = 1u << 11,
+};
+inline constexpr int kFeatureCount = 12;
+
+class FeatureSet {
+ public:
+  constexpr FeatureSet() = default;
+  constexpr FeatureSet(std::initializer_list<Feature> features) {
+    for (const Feature feature : features) Add(feature);
+  }
+  constexpr bool Has(Feature feature) const { return (bits_ & static_cast<std::uint32_t>(feature)) != 0; }
+  constexpr void Add(Feature feature) { bits_ |= static_cast<std::uint32_t>(feature); }
+  constexpr bool operator==(const FeatureSet&) const = default;
+
+ private:
+  std::uint32_t bits_ = 0;
+};
+
 // --- Settings ----------------------------------------------------------------------------------------------------------
 
 struct RenderSettings {
@@ -83,8 +117,9 @@ struct RenderSettings {
   int max_anisotropy = 8;                    // 1 to 16
   MipFilter mip_filter = MipFilter::Linear;  // the most that samplers get
   TexelBits texels = TexelBits::Mixed;
-  int environment_size = 1024;   // most texels along the environment's sharpest map: 64 to 1024, a power of two
-  int environment_samples = 48;  // of the narrowest lobe it is filtered with, wider ones take more: 6 to 768
+  int environment_size = 1024;   // most texels along the environment's sharpest map: 64 to 1024, a power of two (the
+                                 // studio never needs more than 128)
+  int environment_samples = 24;  // of the narrowest lobe it is filtered with, wider ones take more: 6 to 768
   IrradianceMethod irradiance = IrradianceMethod::Convolution;
   TangentSource tangents = TangentSource::File;
   int tile_size = 32;      // 8, 16, 32 or 64: never changes the picture
@@ -95,6 +130,11 @@ struct RenderSettings {
   CameraChoice camera = AutoCamera{};
   EnvironmentSettings environment;
   Background background = Background::Transparent;
+  // Left out although the scene has them: the picture is the one of the same scene built without them, bit for bit.
+  FeatureSet without;
+  // False: the frame does what the scene does not need as well, as far as that changes no bit of the picture, to show
+  // just that (docs/explain.md says what). Slow, and of no other use.
+  bool omit_unused = true;
   // Replaces the material's shading for every fragment; null: the physically based model. Not owned.
   const FragmentShader* shader = nullptr;
   // Called now and then from one of the worker threads with the share that is done, in [0, 1]. May be empty.
@@ -102,6 +142,16 @@ struct RenderSettings {
 };
 
 // --- What it took ------------------------------------------------------------------------------------------------------
+
+// A texture that the frame reads.
+struct TextureStats {
+  int image = -1;            // index into Scene::images
+  bool color = false;        // kept as colour; otherwise as numbers
+  int width = 0, height = 0; // texels of its largest level
+  int levels = 0;
+  int bits = 0;              // of a channel
+  std::size_t bytes = 0;     // of all levels
+};
 
 // Times are wall-clock seconds; counts are exact and independent of thread count.
 struct RenderStats {
@@ -119,6 +169,10 @@ struct RenderStats {
   std::uint64_t covered_pixels = 0;      // with alpha > 0
   std::uint64_t images_decoded = 0;
   std::uint64_t texture_bytes = 0;       // all mip levels kept
+  std::uint64_t environment_bytes = 0;   // of the prepared environment
+  std::uint64_t pose_bytes = 0;          // of geometry that was deformed, or completed with normals and tangents
+  int environment_size = 0;              // texels along its sharpest map
+  std::vector<TextureStats> textures;
   std::uint64_t non_finite_fragments = 0;  // replaced by black, see docs/conventions.md
   std::string target;                    // instruction set: SCALAR, SSE4, AVX2 or AVX3
   int threads = 0;
@@ -129,5 +183,22 @@ struct RenderStats {
 // Renders. Safe to call from several threads at once. Throws Error: InvalidUsage for settings out of range,
 // InvalidInput for scenes that break their rules, OutOfMemory.
 Film Render(const Scene& scene, const RenderSettings& settings, RenderStats* stats = nullptr);
+
+// Renders one scene again and again: what a frame shares with the one before (its pose, textures, environment and memory)
+// is kept. Every frame is the one that Render() makes. The scene must outlive the renderer, and must not change.
+class Renderer {
+ public:
+  explicit Renderer(const Scene& scene);
+  ~Renderer();
+  Renderer(const Renderer&) = delete;
+  Renderer& operator=(const Renderer&) = delete;
+
+  // Replaces `film`, using its memory. Throws what Render() does; the film is lost then. Not from two threads at once.
+  void Render(const RenderSettings& settings, Film& film, RenderStats* stats = nullptr);
+
+ private:
+  class Frames;
+  std::unique_ptr<Frames> frames_;
+};
 
 }  // namespace facet

@@ -1,7 +1,6 @@
 #include "facet/digest.h"
 
 namespace facet {
-
 namespace {
 
 constexpr std::string_view kHex = "0123456789abcdef";

@@ -1,6 +1,8 @@
 #include "bin/bin_triangles.h"
 
 #include <algorithm>
+#include <bit>
+#include <numeric>
 
 #include "frame/constants.h"
 
@@ -11,13 +13,14 @@ struct TileRange {
   int x0, y0, x1, y1;  // inclusive; empty when x1 < x0 or y1 < y0
 };
 
-TileRange TilesOf(const TileGrid& grid, const TriangleRecord& r) {
-  const auto [min_x, max_x] = std::minmax({r.x_fx8[0], r.x_fx8[1], r.x_fx8[2]});
-  const auto [min_y, max_y] = std::minmax({r.y_fx8[0], r.y_fx8[1], r.y_fx8[2]});
-  const int size_fx8 = grid.tile_size * kSubpixelScale;
-  const auto tile = [&](std::int32_t p) { return p < 0 ? -1 : p / size_fx8; };
-  return {std::max(tile(min_x), 0), std::max(tile(min_y), 0), std::min(tile(max_x), grid.columns - 1),
-          std::min(tile(max_y), grid.rows - 1)};
+TileRange TilesOf(const TileGrid& grid, int tile_bits_fx8, const TriangleRecord& r) {
+  // Pairs, and not lists of three, become instructions without a branch.
+  const std::int32_t min_x = std::min(std::min(r.x_fx8[0], r.x_fx8[1]), r.x_fx8[2]);
+  const std::int32_t min_y = std::min(std::min(r.y_fx8[0], r.y_fx8[1]), r.y_fx8[2]);
+  const std::int32_t max_x = std::max(std::max(r.x_fx8[0], r.x_fx8[1]), r.x_fx8[2]);
+  const std::int32_t max_y = std::max(std::max(r.y_fx8[0], r.y_fx8[1]), r.y_fx8[2]);
+  return {std::max(min_x >> tile_bits_fx8, 0), std::max(min_y >> tile_bits_fx8, 0),
+          std::min(max_x >> tile_bits_fx8, grid.columns - 1), std::min(max_y >> tile_bits_fx8, grid.rows - 1)};
 }
 
 // False when the whole tile lies outside one edge. Conservative: exact at the tile's outer corners.
@@ -33,34 +36,64 @@ bool MayTouch(const TileGrid& grid, const TriangleRecord& r, int tile_x, int til
   return true;
 }
 
+struct Entry {
+  std::uint32_t tile, record;
+};
+
+// Sorts by tile, keeping the order within each: by digits, from the lowest, of as many bits as suit the number of
+// entries, so that time is linear in it. `scratch` has the same size.
+void SortByTile(std::vector<Entry>& entries, std::vector<Entry>& scratch) {
+  if (entries.empty()) return;
+  const auto by_tile = [](const Entry& a, const Entry& b) { return a.tile < b.tile; };
+  const auto [low, high] = std::minmax_element(entries.begin(), entries.end(), by_tile);
+  const std::uint32_t first = low->tile;
+  const int bits = static_cast<int>(std::bit_width(high->tile - first));
+  const int digit_bits = std::min(static_cast<int>(std::bit_width(entries.size())), 11);
+  std::uint32_t place[1 << 11];
+  for (int shift = 0; shift < bits; shift += digit_bits) {
+    const std::uint32_t digits = 1u << digit_bits;
+    const auto digit = [&](const Entry& e) { return (e.tile - first) >> shift & (digits - 1); };
+    std::fill(place, place + digits, 0u);
+    for (const Entry& e : entries) ++place[digit(e)];
+    std::exclusive_scan(place, place + digits, place, 0u);
+    for (const Entry& e : entries) scratch[place[digit(e)]++] = e;
+    entries.swap(scratch);
+  }
+}
+
 }  // namespace
 
 void BinChunk(const TileGrid& grid, TriangleChunk& chunk) {
-  struct Pair {
-    std::uint32_t tile, record;
-  };
-  std::vector<Pair> pairs;
-  pairs.reserve(chunk.records.size() + chunk.records.size() / 4);
+  const int tile_bits_fx8 = std::countr_zero(static_cast<unsigned>(grid.tile_size)) + kSubpixelBits;
+  std::vector<Entry> entries;
+  entries.reserve(chunk.records.size() + chunk.records.size() / 4);
   for (std::uint32_t i = 0; i < chunk.records.size(); ++i) {
     const TriangleRecord& r = chunk.records[i];
-    const TileRange range = TilesOf(grid, r);
+    const TileRange range = TilesOf(grid, tile_bits_fx8, r);
+    if (range.x0 == range.x1 && range.y0 == range.y1) {
+      entries.push_back({static_cast<std::uint32_t>(range.y0 * grid.columns + range.x0), i});
+      continue;
+    }
     const bool test = range.x1 - range.x0 + range.y1 - range.y0 >= 2;
     for (int y = range.y0; y <= range.y1; ++y) {
       for (int x = range.x0; x <= range.x1; ++x) {
-        if (!test || MayTouch(grid, r, x, y)) pairs.push_back({static_cast<std::uint32_t>(y * grid.columns + x), i});
+        if (!test || MayTouch(grid, r, x, y)) entries.push_back({static_cast<std::uint32_t>(y * grid.columns + x), i});
       }
     }
   }
-  std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) { return a.tile < b.tile; });
-  chunk.entries.resize(pairs.size());
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    if (i == 0 || pairs[i].tile != pairs[i - 1].tile) {
-      chunk.tiles.push_back(pairs[i].tile);
-      chunk.begin.push_back(static_cast<std::uint32_t>(i));
+  std::vector<Entry> scratch(entries.size());
+  SortByTile(entries, scratch);
+  chunk.tiles.clear();
+  chunk.begin.clear();
+  chunk.entries.resize(entries.size());
+  for (std::uint32_t i = 0; i < entries.size(); ++i) {
+    if (i == 0 || entries[i].tile != entries[i - 1].tile) {
+      chunk.tiles.push_back(entries[i].tile);
+      chunk.begin.push_back(i);
     }
-    chunk.entries[i] = pairs[i].record;
+    chunk.entries[i] = entries[i].record;
   }
-  chunk.begin.push_back(static_cast<std::uint32_t>(pairs.size()));
+  chunk.begin.push_back(static_cast<std::uint32_t>(entries.size()));
 }
 
 }  // namespace facet

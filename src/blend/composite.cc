@@ -14,7 +14,7 @@ void Compositor::ByPixel::Fill(const FragmentList& list, std::size_t pixel_count
 }
 
 void Compositor::Run(const TileBuffers& tile, const ShadedFragments& opaque, const ShadedFragments& blended,
-                     const RecordTable& records, const std::vector<glm::vec4>* background,
+                     const RecordTable& records, const std::vector<glm::vec4>& background,
                      std::vector<glm::vec4>& pixels) {
   const std::size_t pixel_count = pixels.size();
   layers_of_.Fill(blended.list, pixel_count);
@@ -33,7 +33,7 @@ void Compositor::Run(const TileBuffers& tile, const ShadedFragments& opaque, con
     }
     glm::vec4 sum(0.0f);
     for (int s = 0; s < tile.samples; ++s) {
-      glm::vec4 color = background != nullptr ? (*background)[p] : glm::vec4(0.0f);
+      glm::vec4 color = background[p];
       for (std::uint32_t k = opaque_of_.first[p]; k < opaque_of_.first[p + 1]; ++k) {
         const std::uint32_t i = opaque_of_.order[k];
         if (opaque.list.samples[i] >> s & 1) color = glm::vec4(opaque.red[i], opaque.green[i], opaque.blue[i], 1.0f);

@@ -19,11 +19,11 @@ class RecordTable {
 class Compositor {
  public:
   // Replaces, in `pixels` (tile_size a row), those that blended fragments touch. Each sample starts from the opaque
-  // fragment that covers it, or from `background` (may be null: nothing), and the fragments that cover it are laid over
+  // fragment that covers it, or from `background`, and the fragments that cover it are laid over
   // it in the order of their depth at that very sample, so that surfaces that cut through each other come out right. At
   // equal depth the later triangle lies over the earlier. `opaque`: in the order of VisibleFragments.
   void Run(const TileBuffers& tile, const ShadedFragments& opaque, const ShadedFragments& blended,
-           const RecordTable& records, const std::vector<glm::vec4>* background, std::vector<glm::vec4>& pixels);
+           const RecordTable& records, const std::vector<glm::vec4>& background, std::vector<glm::vec4>& pixels);
 
  private:
   // Fragments by pixel: those of pixel p are order[first[p]] to order[first[p + 1] - 1], in their list's order.

@@ -8,6 +8,7 @@
 #include "cli/check_command.h"
 #include "cli/console.h"
 #include "cli/diff_command.h"
+#include "cli/explain_command.h"
 #include "cli/hash_command.h"
 #include "cli/info_command.h"
 #include "cli/options.h"
@@ -53,6 +54,7 @@ struct Run {
   int operator()(const RenderOptions& options) const { return RunRender(options), 0; }
   int operator()(const InfoOptions& options) const { return RunInfo(options), 0; }
   int operator()(const ReportOptions& options) const { return RunReport(options), 0; }
+  int operator()(const ExplainOptions& options) const { return RunExplain(options), 0; }
   int operator()(const HashOptions& options) const { return RunHash(options), 0; }
   int operator()(const VerifyOptions& options) const {
     return Compared([&] { return RunVerify(options); });

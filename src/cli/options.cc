@@ -166,6 +166,17 @@ CLI::App& AddInfo(CLI::App& program, InfoOptions& options) {
   return page.app();
 }
 
+CLI::App& AddExplain(CLI::App& program, ExplainOptions& options) {
+  CommandPage page(program, "explain", "Say what a frame uses, leaves out and spends on what", "IN [OPTIONS]",
+                   std::string("The options are those of render.\n\n") + kExitCodes);
+  CLI::App& app = page.app();
+  AddScene(app, options.input);
+  AddRequest(app, options.request, options.load);
+  AddFlag(app, "Messages", "--json", "As JSON with stable keys", options.json);
+  page.End("Messages");
+  return app;
+}
+
 CLI::App& AddHash(CLI::App& program, HashOptions& options) {
   CommandPage page(program, "hash", "Print the SHA-256 of a scene's picture and of what it is made from",
                    "IN [OPTIONS]", std::string("The options are those of render.\n\n") + kExitCodes);
@@ -293,6 +304,7 @@ Command ParseCommandLine(int argc, const char* const* argv) {
 
   RenderOptions render;
   InfoOptions info;
+  ExplainOptions explain;
   HashOptions hash;
   VerifyOptions verify;
   DiffOptions diff;
@@ -300,6 +312,7 @@ Command ParseCommandLine(int argc, const char* const* argv) {
   ReportOptions report;
   AddRender(program, render);
   const CLI::App& info_app = AddInfo(program, info);
+  const CLI::App& explain_app = AddExplain(program, explain);
   const CLI::App& hash_app = AddHash(program, hash);
   const CLI::App& verify_app = AddVerify(program, verify);
   const CLI::App& diff_app = AddDiff(program, diff);
@@ -317,6 +330,7 @@ Command ParseCommandLine(int argc, const char* const* argv) {
     throw UsageError(program, complaint);
   }
   if (info_app.parsed()) return info;
+  if (explain_app.parsed()) return explain;
   if (hash_app.parsed()) return hash;
   if (verify_app.parsed()) return verify;
   if (diff_app.parsed()) return diff;

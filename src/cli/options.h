@@ -36,6 +36,14 @@ struct InfoOptions {
   bool json = false;
 };
 
+// `facet explain`.
+struct ExplainOptions {
+  std::filesystem::path input;
+  RenderRequest request;
+  LoadOptions load;
+  bool json = false;
+};
+
 // `facet hash`.
 struct HashOptions {
   std::filesystem::path input;
@@ -68,8 +76,8 @@ struct TextRequest {
   std::string text;
 };
 
-using Command = std::variant<TextRequest, RenderOptions, InfoOptions, HashOptions, VerifyOptions, DiffOptions,
-                             CheckCommandOptions, ReportOptions>;
+using Command = std::variant<TextRequest, RenderOptions, InfoOptions, ExplainOptions, HashOptions, VerifyOptions,
+                             DiffOptions, CheckCommandOptions, ReportOptions>;
 
 // Throws Error(InvalidUsage).
 Command ParseCommandLine(int argc, const char* const* argv);

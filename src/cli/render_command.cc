@@ -124,16 +124,17 @@ void RenderToFile(RenderOptions& options) {
   stats.render_seconds = stage.Lap();
   PrintWarnings(stats.render.warnings, options.quiet);
 
-  Provenance provenance;
-  provenance.version = Version();
-  provenance.scene = options.input.filename().string();
-  provenance.settings = SpelledOut(request);
-  provenance.film = HashFilm(film);
   const Image image = Develop(film, request.display, request.type);
-  film = {};
-  provenance.pixels = HashImage(image);
   stats.develop_seconds = stage.Lap();
-  WriteImage(options.output, image, ToPngText(provenance));
+  WriteImageWithText(options.output, image, [&] {
+    Provenance provenance;
+    provenance.version = Version();
+    provenance.scene = options.input.filename().string();
+    provenance.settings = SpelledOut(request);
+    provenance.film = HashFilm(film);
+    provenance.pixels = HashImage(image);
+    return ToPngText(provenance);
+  });
   stats.write_seconds = stage.Lap();
   stats.total_seconds = total.Lap();
   PrintStats(options, stats);

@@ -4,13 +4,14 @@
 #include <cmath>
 
 #include "clip/clip_polygon.h"
+#include "clip/small_triangles.h"
 #include "frame/constants.h"
 #include "scene/topology.h"
 
 namespace facet {
 namespace {
 
-struct ScreenVertex {
+struct Corner {
   std::int32_t x_fx8, y_fx8;
   double depth;
 };
@@ -21,20 +22,38 @@ class Assembler {
  public:
   Assembler(const FrameView& view, const FrameDrawable& drawable, const VertexBuffer& vertices, int samples,
             TriangleChunk& chunk)
-      : view_(view), drawable_(drawable), vertices_(vertices), chunk_(chunk) {
-    // The outermost samples of a pixel bound which triangles can cover one at all.
-    const SamplePosition* pattern = SamplePattern(samples);
-    int low_x = 16, low_y = 16, high_x = 0, high_y = 0;
-    for (int s = 0; s < samples; ++s) {
-      low_x = std::min<int>(low_x, pattern[s].x), high_x = std::max<int>(high_x, pattern[s].x);
-      low_y = std::min<int>(low_y, pattern[s].y), high_y = std::max<int>(high_y, pattern[s].y);
+      : view_(view), drawable_(drawable), vertices_(vertices.data() + drawable.vertex_base), chunk_(chunk),
+        reach_(ReachOf(samples)) {}
+
+  // Small ones in groups; where a group has others, that group one by one.
+  void Triangles() {
+    std::vector<std::uint32_t> unrolled;
+    TriangleRun run;
+    run.drawable = &drawable_;
+    run.vertices = vertices_;
+    run.corners = Corners(unrolled);
+    run.drawable_index = chunk_.drawable;
+    run.first_primitive = chunk_.first_primitive;
+    run.reach = reach_;
+    const auto advance = [&](std::uint32_t n) { run.corners += 3 * std::size_t{n}, run.first_primitive += n; };
+    const std::uint32_t end = chunk_.first_primitive + chunk_.primitive_count;
+    chunk_.records.reserve(chunk_.primitive_count);  // what is not written of it takes no memory
+    while (run.first_primitive < end) {
+      run.count = end - run.first_primitive;
+      const SmallTriangles small = SetUpSmallTriangles(run, chunk_.records);
+      chunk_.culled += small.culled;
+      chunk_.clipped += small.rejected;
+      advance(small.taken);
+      const std::uint32_t group = std::min(end - run.first_primitive, kTriangleGroup);
+      for (std::uint32_t i = 0; i < group; ++i) {
+        const std::uint32_t* v = run.corners + std::size_t{i} * 3;
+        Triangle(run.first_primitive + i, {v[0], v[1], v[2]});
+      }
+      advance(group);
     }
-    constexpr int kUnit = kSubpixelScale / kSampleGrid;
-    low_x_ = low_x * kUnit, high_x_ = high_x * kUnit, low_y_ = low_y * kUnit, high_y_ = high_y * kUnit;
   }
 
-  void Triangle(std::uint32_t primitive) {
-    const auto v = PrimitiveVertices(*drawable_.geometry, primitive);
+  void Triangle(std::uint32_t primitive, const std::array<std::uint32_t, 3>& v) {
     const std::int32_t c0 = Code(v[0]), c1 = Code(v[1]), c2 = Code(v[2]);
     if (Rejected(c0, c1, c2)) return;
     if (((c0 | c1 | c2) & kOutClip) == 0) {
@@ -46,7 +65,7 @@ class Assembler {
     const std::int32_t codes[3] = {c0, c1, c2};
     for (int i = 0; i < 3; ++i) polygon[i] = {Homogeneous(v[std::size_t(i)]), i, codes[i]};
     const int count = ClipPolygon(view_, c0 | c1 | c2, polygon, 3);
-    ScreenVertex screen[kMaxClipVertices + 1];
+    Corner screen[kMaxClipVertices + 1];
     for (int i = 0; i < count; ++i) screen[i] = Project(polygon[i], v);
     for (int i = 2; i < count; ++i) Emit(screen[0], screen[i - 1], screen[i], primitive, RecordKind::Triangle);
   }
@@ -87,11 +106,24 @@ class Assembler {
   }
 
  private:
-  std::int32_t Code(std::uint32_t vertex) const { return vertices_.outcode[drawable_.vertex_base + vertex]; }
+  // Three indices for each of the chunk's triangles: a list's own, or made in `unrolled`.
+  const std::uint32_t* Corners(std::vector<std::uint32_t>& unrolled) const {
+    const Primitive& geometry = *drawable_.geometry;
+    if (geometry.topology == Topology::Triangles && !geometry.indices.empty()) {
+      return geometry.indices.data() + std::size_t{chunk_.first_primitive} * 3;
+    }
+    unrolled.reserve(std::size_t{chunk_.primitive_count} * 3);
+    for (std::uint32_t i = 0; i < chunk_.primitive_count; ++i) {
+      for (const std::uint32_t v : PrimitiveVertices(geometry, chunk_.first_primitive + i)) unrolled.push_back(v);
+    }
+    return unrolled.data();
+  }
 
-  ScreenVertex Vertex(std::uint32_t vertex) const {
-    const std::size_t i = drawable_.vertex_base + vertex;
-    return {vertices_.x_fx8[i], vertices_.y_fx8[i], vertices_.depth[i]};
+  std::int32_t Code(std::uint32_t vertex) const { return vertices_[vertex].outcode; }
+
+  Corner Vertex(std::uint32_t vertex) const {
+    const ScreenVertex& v = vertices_[vertex];
+    return {v.x_fx8, v.y_fx8, v.depth};
   }
 
   bool Rejected(std::int32_t c0, std::int32_t c1, std::int32_t c2) {
@@ -111,26 +143,24 @@ class Assembler {
   }
   double Depth(const glm::dvec3& h) const { return view_.perspective ? 1.0 / h.z : -h.z; }
 
-  ScreenVertex At(const glm::dvec2& pixel, double depth) const { return {Snap(pixel.x), Snap(pixel.y), depth}; }
+  Corner At(const glm::dvec2& pixel, double depth) const { return {Snap(pixel.x), Snap(pixel.y), depth}; }
 
   // A vertex that the clipper did not touch keeps the place that the vertex stage gave it: the neighbours that were not
   // clipped have it there. Where that stage found it outside, it gave it none, and no neighbour has one either.
-  ScreenVertex Project(const ClipVertex& v, const std::array<std::uint32_t, 3>& source) const {
+  Corner Project(const ClipVertex& v, const std::array<std::uint32_t, 3>& source) const {
     if (v.source >= 0 && (v.outcode & kOutClip) == 0) return Vertex(source[std::size_t(v.source)]);
     return At(Pixel(v.position), Depth(v.position));
   }
 
   // Half a pixel wide on each side: whether it is seen from the front does not matter.
-  void Quad(const std::array<ScreenVertex, 4>& q, std::uint32_t primitive, RecordKind kind) {
+  void Quad(const std::array<Corner, 4>& q, std::uint32_t primitive, RecordKind kind) {
     Emit(q[0], q[1], q[2], primitive, kind);
     Emit(q[0], q[2], q[3], primitive, kind);
   }
 
-  void Emit(ScreenVertex a, ScreenVertex b, ScreenVertex c, std::uint32_t primitive, RecordKind kind) {
-    const auto double_area = [&] {
-      return std::int64_t{b.x_fx8 - a.x_fx8} * (c.y_fx8 - a.y_fx8) - std::int64_t{c.x_fx8 - a.x_fx8} * (b.y_fx8 - a.y_fx8);
-    };
-    std::int64_t area = double_area();
+  void Emit(Corner a, Corner b, Corner c, std::uint32_t primitive, RecordKind kind) {
+    std::int64_t area = std::int64_t{b.x_fx8 - a.x_fx8} * (c.y_fx8 - a.y_fx8) -
+                        std::int64_t{c.x_fx8 - a.x_fx8} * (b.y_fx8 - a.y_fx8);
     // glTF's front faces run counter-clockwise; with y down that is a negative area.
     const bool back = kind == RecordKind::Triangle && (area > 0) != drawable_.mirrored;
     if (area == 0 || (back && !drawable_.double_sided)) return void(++chunk_.culled);
@@ -138,10 +168,10 @@ class Assembler {
 
     const auto [min_x, max_x] = std::minmax({a.x_fx8, b.x_fx8, c.x_fx8});
     const auto [min_y, max_y] = std::minmax({a.y_fx8, b.y_fx8, c.y_fx8});
-    if (!SpansSample(min_x, max_x, low_x_, high_x_) || !SpansSample(min_y, max_y, low_y_, high_y_)) {
+    if (!SpansSample(min_x, max_x, reach_.low_x, reach_.high_x) ||
+        !SpansSample(min_y, max_y, reach_.low_y, reach_.high_y)) {
       return void(++chunk_.culled);
     }
-
     TriangleRecord& r = chunk_.records.emplace_back();
     r.x_fx8[0] = a.x_fx8, r.x_fx8[1] = b.x_fx8, r.x_fx8[2] = c.x_fx8;
     r.y_fx8[0] = a.y_fx8, r.y_fx8[1] = b.y_fx8, r.y_fx8[2] = c.y_fx8;
@@ -168,9 +198,9 @@ class Assembler {
 
   const FrameView& view_;
   const FrameDrawable& drawable_;
-  const VertexBuffer& vertices_;
+  const ScreenVertex* vertices_;
   TriangleChunk& chunk_;
-  int low_x_, high_x_, low_y_, high_y_;
+  const SampleReach reach_;
 };
 
 }  // namespace
@@ -179,7 +209,8 @@ void AssembleChunk(const FrameView& view, const FrameDrawable& drawable, const V
                    TriangleChunk& chunk) {
   Assembler assembler(view, drawable, vertices, samples, chunk);
   const std::uint32_t end = chunk.first_primitive + chunk.primitive_count;
-  chunk.records.reserve(chunk.primitive_count / 2 + 8);
+  chunk.records.clear();
+  chunk.culled = chunk.clipped = 0;
   switch (ClassOf(drawable.geometry->topology)) {
     case PrimitiveClass::Points:
       for (std::uint32_t i = chunk.first_primitive; i < end; ++i) assembler.Point(i);
@@ -188,7 +219,7 @@ void AssembleChunk(const FrameView& view, const FrameDrawable& drawable, const V
       for (std::uint32_t i = chunk.first_primitive; i < end; ++i) assembler.Line(i);
       break;
     case PrimitiveClass::Triangles:
-      for (std::uint32_t i = chunk.first_primitive; i < end; ++i) assembler.Triangle(i);
+      assembler.Triangles();
       break;
   }
 }

@@ -4,6 +4,7 @@
 
 #include "base/float_environment.h"
 #include "base/check.h"
+#include "base/pages.h"
 #include "base/parallel.h"
 #include "facet/error.h"
 #include "facet/film.h"
@@ -58,6 +59,8 @@ Image Develop(const Film& film, const DisplaySettings& settings, ChannelType typ
   if (type == ChannelType::U16) whole.thresholds16 = Srgb16Thresholds().data();
 
   const std::size_t pixel_size = static_cast<std::size_t>(image.channels) * SizeOf(type);
+  image.bytes.reserve(image.PixelCount() * pixel_size);
+  PreferHugePages(image.bytes.data(), image.bytes.capacity());
   image.bytes.resize(image.PixelCount() * pixel_size);
   constexpr std::size_t kPixelsPerTask = 16384;
   ParallelFor(image.PixelCount(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {

@@ -5,6 +5,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "base/pages.h"
 #include "facet/scene.h"
 
 namespace facet {
@@ -49,12 +50,15 @@ inline constexpr std::int32_t kOutClip = 63;
 // Primitives whose vertices share one of these are not visible.
 inline constexpr std::int32_t kOutReject = 1023;
 
-// One entry per vertex of every drawable. Position and depth are meaningful where (outcode & kOutClip) == 0.
-struct VertexBuffer {
-  std::vector<std::int32_t> x_fx8, y_fx8;
-  std::vector<float> depth;
-  std::vector<std::int32_t> outcode;
+// A vertex on the screen. Position and depth are meaningful where (outcode & kOutClip) == 0.
+struct ScreenVertex {
+  std::int32_t x_fx8, y_fx8;
+  float depth;
+  std::int32_t outcode;
 };
+
+// One entry per vertex of every drawable.
+using VertexBuffer = PageVector<ScreenVertex>;
 
 enum class RecordKind : std::uint8_t { Triangle, Line, Point };
 
@@ -69,6 +73,7 @@ struct TriangleRecord {
   std::uint32_t primitive;  // within the drawable
   RecordKind kind;
   bool back_facing;
+  TriangleRecord() : primitive(0), kind(RecordKind::Triangle), back_facing(false) {}  // NOLINT: the rest is left unset
 };
 
 // A run of one drawable's primitives, processed by one task. Chunk order is submission order.

@@ -6,10 +6,34 @@
 #include <cstring>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "facet/error.h"
 
+#ifdef __linux__
+#include <sys/mman.h>
+#endif
+
 namespace facet::gltf {
+namespace {
+
+// Files from here on are mapped: what is not used of them is not read, and there is no copy. Smaller ones are read,
+// because a mapped file must stay as it is for as long as its scene is in use.
+constexpr std::size_t kMappedSize = std::size_t{64} << 20;
+
+// No data where the system does not map the file.
+Bytes Map([[maybe_unused]] std::FILE* file, [[maybe_unused]] std::size_t size) {
+#ifdef __linux__
+  void* const memory = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, ::fileno(file), 0);
+  if (memory != MAP_FAILED) {
+    std::shared_ptr<const void> owner(memory, [size](void* p) { ::munmap(p, size); });
+    return {std::move(owner), static_cast<const std::byte*>(memory), size};
+  }
+#endif
+  return {};
+}
+
+}  // namespace
 
 MutableBytes AllocateBytes(std::size_t size) {
   // make_shared_for_overwrite is missing in the standard libraries that we support.
@@ -33,7 +57,12 @@ Bytes ReadFileStart(const std::filesystem::path& path, std::size_t most, std::ui
   const std::uintmax_t size = std::filesystem::file_size(path, ignored);
   if (ignored) throw Error(ErrorCode::NotFound, "cannot be read", name);
   if (file_size) *file_size = size;
-  MutableBytes bytes = AllocateBytes(static_cast<std::size_t>(std::min<std::uintmax_t>(size, most)));
+  const auto wanted = static_cast<std::size_t>(std::min<std::uintmax_t>(size, most));
+  if (wanted >= kMappedSize) {
+    Bytes mapped = Map(file.get(), wanted);
+    if (mapped.data != nullptr) return mapped;
+  }
+  MutableBytes bytes = AllocateBytes(wanted);
   bytes.size = std::fread(bytes.data(), 1, bytes.size, file.get());
   if (std::ferror(file.get())) throw Error(ErrorCode::NotFound, "cannot be read", name);
   return bytes.Freeze();

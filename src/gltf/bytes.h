@@ -30,7 +30,8 @@ struct MutableBytes {
 // Uninitialised.
 MutableBytes AllocateBytes(std::size_t size);
 
-// A whole file. Throws Error(NotFound) when it is not there, not readable, or not a regular file.
+// A whole file; a large one is mapped, and must not be changed while the bytes are in use. Throws Error(NotFound) when
+// it is not there, not readable, or not a regular file.
 Bytes ReadWholeFile(const std::filesystem::path& path);
 
 // The first `most` bytes of a file, or all where it has no more. `file_size` gets the size of the whole, where given.

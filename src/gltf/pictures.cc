@@ -17,6 +17,7 @@ class EncodedImage final : public ImageSource {
  public:
   EncodedImage(Bytes bytes, std::string name) : bytes_(std::move(bytes)), name_(std::move(name)) {}
   Image Decode() const override { return DecodeImage(bytes_.Span(), name_); }
+  void DecodeRows(const RowReceiver& receive) const override { DecodeImageRows(bytes_.Span(), name_, receive); }
   std::string Name() const override { return name_; }
   std::optional<ImageHeader> Header() const override { return ProbeImage(bytes_.Span()); }
 
@@ -30,6 +31,9 @@ class ImageFile final : public ImageSource {
  public:
   explicit ImageFile(std::filesystem::path path) : path_(std::move(path)) {}
   Image Decode() const override { return DecodeImage(ReadWholeFile(path_).Span(), Name()); }
+  void DecodeRows(const RowReceiver& receive) const override {
+    DecodeImageRows(ReadWholeFile(path_).Span(), Name(), receive);
+  }
   std::string Name() const override { return path_.string(); }
   std::optional<ImageHeader> Header() const override;
 

@@ -139,11 +139,23 @@ void WriteFileWhole(const std::filesystem::path& path, std::span<const std::byte
 }
 
 Image DecodeImage(std::span<const std::byte> bytes, const std::string& name) {
-  if (LooksLikePng(bytes)) return DecodePng(bytes, name);
-  if (LooksLikeJpeg(bytes)) return DecodeJpeg(bytes, name);
+  if (LooksLikePng(bytes) || LooksLikeJpeg(bytes)) {
+    Image image;
+    const auto decode = LooksLikePng(bytes) ? DecodePng : DecodeJpeg;
+    decode(bytes, name, kMaxImageSide, [&](Image& whole, int) { image = std::move(whole); });
+    return image;
+  }
   if (LooksLikeRadiance(bytes)) return DecodeRadiance(bytes, name);
   if (bytes.size() < 12) throw Error(ErrorCode::InvalidInput, "too short for a picture", name);
   return DecodeWithOiio(bytes, name);
+}
+
+void DecodeImageRows(std::span<const std::byte> bytes, const std::string& name, const RowReceiver& receive) {
+  constexpr int kRows = 64;  // a piece stays in the processor's cache until the receiver has it
+  if (LooksLikePng(bytes)) return DecodePng(bytes, name, kRows, receive);
+  if (LooksLikeJpeg(bytes)) return DecodeJpeg(bytes, name, kRows, receive);
+  const Image whole = DecodeImage(bytes, name);
+  receive(whole, whole.height);
 }
 
 Image LoadImage(const std::filesystem::path& path) {

@@ -28,10 +28,21 @@ inline constexpr std::size_t kMaxImagePixels = std::size_t(1) << 28;
 // MissingModule (the format needs OpenImageIO and its module is not there).
 Image DecodeImage(std::span<const std::byte> bytes, const std::string& name);
 
+// The same in pieces of some rows. PNG (unless it is interlaced) and JPEG never have more than one of them in memory.
+void DecodeImageRows(std::span<const std::byte> bytes, const std::string& name, const RowReceiver& receive);
+
 // A PNG file of an image of type U8 or U16 (Encoding::Srgb adds the sRGB chunk; Linear adds gAMA 1.0). `text` are
 // keyword and value pairs in UTF-8: tEXt where ASCII suffices, iTXt otherwise. The bytes are a function of the
-// arguments (and of the version of zlib). Throws Error: InvalidUsage (F32, a wrong byte count, or a bad keyword).
-std::vector<std::byte> EncodePng(const Image& image, const std::vector<std::array<std::string, 2>>& text = {});
+// arguments (and of the version of libdeflate). Throws Error: InvalidUsage (F32, a wrong byte count, or a bad keyword).
+using PngText = std::vector<std::array<std::string, 2>>;
+std::vector<std::byte> EncodePng(const Image& image, const PngText& text = {});
+
+// The same with a text that takes time to make: it is made while another thread compresses the pixels.
+std::vector<std::byte> EncodePng(const Image& image, const std::function<PngText()>& make_text);
+
+// WriteImage of facet/film.h with such a text. Formats other than PNG have no use for it and do not make it.
+void WriteImageWithText(const std::filesystem::path& path, const Image& image,
+                        const std::function<PngText()>& make_text);
 
 // The text chunks before the pixels of a PNG file, keyword to value in UTF-8; of equal keywords the first counts. `name` is
 // what messages call the picture. Throws Error(InvalidInput).

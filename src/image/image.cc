@@ -13,6 +13,7 @@ class MemoryImage final : public ImageSource {
  public:
   MemoryImage(Image image, std::string name) : image_(std::move(image)), name_(std::move(name)) {}
   Image Decode() const override { return image_; }
+  void DecodeRows(const RowReceiver& receive) const override { receive(image_, image_.height); }
   std::string Name() const override { return name_; }
   std::optional<ImageHeader> Header() const override {
     const int bits = 8 * static_cast<int>(SizeOf(image_.type));
@@ -25,6 +26,11 @@ class MemoryImage final : public ImageSource {
 };
 
 }  // namespace
+
+void ImageSource::DecodeRows(const RowReceiver& receive) const {
+  const Image whole = Decode();
+  receive(whole, whole.height);
+}
 
 std::shared_ptr<const ImageSource> MakeImageSource(Image image, std::string name) {
   return std::make_shared<MemoryImage>(std::move(image), std::move(name));

@@ -2,6 +2,7 @@
 // plain data only, and whoever owns memory calls those functions.
 #include "image/jpeg.h"
 
+#include <algorithm>
 #include <csetjmp>
 #include <cstdio>
 #include <cstring>
@@ -96,14 +97,15 @@ bool Start(jpeg_decompress_struct* decoder, ErrorState* errors, const unsigned c
   return true;
 }
 
-bool ReadRows(jpeg_decompress_struct* decoder, ErrorState* errors, JSAMPROW* rows) {
+// The next `count` rows, the first of which is row `first` of the picture.
+bool ReadRows(jpeg_decompress_struct* decoder, ErrorState* errors, JSAMPROW* rows, JDIMENSION first, JDIMENSION count) {
   if (setjmp(errors->jump) != 0) return false;
-  jpeg_start_decompress(decoder);
-  while (decoder->output_scanline < decoder->output_height) {
-    const JDIMENSION at = decoder->output_scanline;
-    jpeg_read_scanlines(decoder, rows + at, decoder->output_height - at);
+  if (first == 0) jpeg_start_decompress(decoder);
+  while (decoder->output_scanline < first + count) {
+    const JDIMENSION at = decoder->output_scanline - first;
+    jpeg_read_scanlines(decoder, rows + at, count - at);
   }
-  jpeg_finish_decompress(decoder);
+  if (decoder->output_scanline == decoder->output_height) jpeg_finish_decompress(decoder);
   return true;
 }
 
@@ -144,7 +146,8 @@ bool LooksLikeJpeg(std::span<const std::byte> bytes) {
   return bytes.size() >= 3 && bytes[0] == std::byte{0xFF} && bytes[1] == std::byte{0xD8} && bytes[2] == std::byte{0xFF};
 }
 
-Image DecodeJpeg(std::span<const std::byte> bytes, const std::string& name) {
+void DecodeJpeg(std::span<const std::byte> bytes, const std::string& name, int piece_rows,
+                const PieceReceiver& receive) {
   Decoder jpeg;
   const auto fail = [&]() -> Error {
     if (jpeg.errors.manager.msg_code == JERR_OUT_OF_MEMORY) {
@@ -158,27 +161,36 @@ Image DecodeJpeg(std::span<const std::byte> bytes, const std::string& name) {
   CheckImageSize(jpeg.decoder.image_width, jpeg.decoder.image_height, name);
 
   const bool inks = jpeg.decoder.out_color_space == JCS_CMYK;
+  const int height = static_cast<int>(jpeg.decoder.image_height);
   Image image;
   image.width = static_cast<int>(jpeg.decoder.image_width);
-  image.height = static_cast<int>(jpeg.decoder.image_height);
   image.channels = jpeg.decoder.out_color_space == JCS_GRAYSCALE ? 1 : 3;
   image.type = ChannelType::U8;
   image.encoding = Encoding::Srgb;
   const std::size_t decoded_channels = inks ? 4 : static_cast<std::size_t>(image.channels);
   const std::size_t row_bytes = std::size_t(image.width) * decoded_channels;
-  std::vector<std::byte> decoded = AllocatePixels(row_bytes * std::size_t(image.height), name);
-  std::vector<JSAMPROW> rows(static_cast<std::size_t>(image.height));
-  for (std::size_t y = 0; y < rows.size(); ++y) {
-    rows[y] = reinterpret_cast<JSAMPROW>(decoded.data() + y * row_bytes);
+  std::vector<std::byte> decoded = AllocatePixels(row_bytes * std::size_t(std::min(piece_rows, height)), name);
+  for (int first = 0; first < height; first += image.height) {
+    image.height = std::min(piece_rows, height - first);
+    std::vector<JSAMPROW> rows(static_cast<std::size_t>(image.height));
+    for (std::size_t y = 0; y < rows.size(); ++y) {
+      rows[y] = reinterpret_cast<JSAMPROW>(decoded.data() + y * row_bytes);
+    }
+    if (!ReadRows(&jpeg.decoder, &jpeg.errors, rows.data(), static_cast<JDIMENSION>(first),
+                  static_cast<JDIMENSION>(image.height))) {
+      throw fail();
+    }
+    if (inks) {
+      image.bytes = AllocatePixels(image.PixelCount() * 3, name);
+      CmykToRgb(decoded, jpeg.decoder.saw_Adobe_marker != 0, image);
+      receive(image, height);
+      continue;
+    }
+    decoded.resize(row_bytes * rows.size());
+    image.bytes.swap(decoded);
+    receive(image, height);
+    image.bytes.swap(decoded);
   }
-  if (!ReadRows(&jpeg.decoder, &jpeg.errors, rows.data())) throw fail();
-  if (inks) {
-    image.bytes = AllocatePixels(image.PixelCount() * 3, name);
-    CmykToRgb(decoded, jpeg.decoder.saw_Adobe_marker != 0, image);
-  } else {
-    image.bytes = std::move(decoded);
-  }
-  return image;
 }
 
 }  // namespace facet

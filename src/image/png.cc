@@ -2,6 +2,7 @@
 // plain data only, and whoever owns memory calls those functions.
 #include "image/png.h"
 
+#include <libdeflate.h>
 #include <png.h>
 
 #include <algorithm>
@@ -10,9 +11,12 @@
 #include <cstdio>
 #include <cstring>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "base/pages.h"
+#include "base/parallel.h"
 #include "facet/error.h"
 #include "image/codec.h"
 #include "image/convert.h"
@@ -48,7 +52,7 @@ void ReadBytes(png_structp png, png_bytep to, std::size_t count) {
 
 struct Header {
   png_uint_32 width, height;
-  int channels, bit_depth;
+  int channels, bit_depth, passes;
 };
 
 // Up to the first row, with every transformation set. False: the complaint says why.
@@ -64,17 +68,18 @@ bool ReadHeader(png_structp png, png_infop info, Header* header) {
   header->height = png_get_image_height(png, info);
   png_set_expand(png);  // palettes, grey below 8 bits, tRNS
   if (std::endian::native == std::endian::little) png_set_swap(png);
-  png_set_interlace_handling(png);
+  header->passes = png_set_interlace_handling(png);
   png_read_update_info(png, info);
   header->channels = png_get_channels(png, info);
   header->bit_depth = png_get_bit_depth(png, info);
   return true;
 }
 
-bool ReadRows(png_structp png, png_bytepp rows) {
+// The next `count` rows; all of an interlaced picture at once.
+bool ReadRows(png_structp png, int passes, png_bytepp rows, png_uint_32 count, bool last) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
-  png_read_image(png, rows);
-  png_read_end(png, nullptr);
+  for (int pass = 0; pass < passes; ++pass) png_read_rows(png, rows, nullptr, count);
+  if (last) png_read_end(png, nullptr);
   return true;
 }
 
@@ -134,18 +139,14 @@ struct WritePlan {
   Encoding encoding;
   png_textp text;
   int text_count;
-  png_bytepp rows;
+  png_const_bytep packed;
+  std::size_t packed_size;
 };
 
 bool WriteAll(png_structp png, png_infop info, const WritePlan* plan) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
   constexpr int kColorTypes[] = {PNG_COLOR_TYPE_GRAY, PNG_COLOR_TYPE_GRAY_ALPHA, PNG_COLOR_TYPE_RGB,
                                  PNG_COLOR_TYPE_RGB_ALPHA};
-  // Measured with zlib 1.2.13 on rendered pictures of 512 x 512 RGBA: level 2 with the filter Up takes 16 ms and gives
-  // 242 kB; Sub 20 ms and 254 kB, all filters tried 25 ms and 239 kB, level 6 with Up 54 ms and 229 kB.
-  png_set_compression_level(png, 2);
-  png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_UP);
-  png_set_compression_buffer_size(png, 1 << 18);
   png_set_IHDR(png, info, plan->width, plan->height, plan->bit_depth, kColorTypes[plan->channels - 1],
                PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
   if (plan->encoding == Encoding::Srgb) {
@@ -155,10 +156,50 @@ bool WriteAll(png_structp png, png_infop info, const WritePlan* plan) {
   }
   if (plan->text_count > 0) png_set_text(png, info, plan->text, plan->text_count);
   png_write_info(png, info);
-  if (plan->bit_depth == 16 && std::endian::native == std::endian::little) png_set_swap(png);
-  png_write_image(png, plan->rows);
-  png_write_end(png, info);
+  constexpr std::size_t kChunk = std::size_t{1} << 30;  // a chunk has less than 2^31 bytes
+  for (std::size_t at = 0; at < plan->packed_size; at += kChunk) {
+    png_write_chunk(png, reinterpret_cast<png_const_bytep>("IDAT"), plan->packed + at,
+                    std::min(kChunk, plan->packed_size - at));
+  }
+  png_write_chunk(png, reinterpret_cast<png_const_bytep>("IEND"), nullptr, 0);
   return true;
+}
+
+// The rows as a PNG holds them, before compression: big-endian numbers less those of the row above (the filter Up).
+PageVector<unsigned char> FilterRows(const Image& image) {
+  constexpr std::size_t kRows = 64;
+  const std::size_t row_bytes = std::size_t(image.width) * std::size_t(image.channels) * SizeOf(image.type);
+  const std::size_t swap = image.type == ChannelType::U16 && std::endian::native == std::endian::little ? 1 : 0;
+  PageVector<unsigned char> filtered((row_bytes + 1) * std::size_t(image.height));
+  ParallelFor(std::size_t(image.height), kRows, [&](std::size_t begin, std::size_t end) {
+    const std::vector<unsigned char> black(row_bytes);
+    for (std::size_t y = begin; y < end; ++y) {
+      const unsigned char* row = image.As<unsigned char>() + y * row_bytes;
+      const unsigned char* above = y > 0 ? row - row_bytes : black.data();
+      unsigned char* out = filtered.data() + y * (row_bytes + 1);
+      *out++ = PNG_FILTER_VALUE_UP;
+      if (swap == 0) {
+        for (std::size_t i = 0; i < row_bytes; ++i) out[i] = static_cast<unsigned char>(row[i] - above[i]);
+      } else {
+        for (std::size_t i = 0; i < row_bytes; ++i) out[i] = static_cast<unsigned char>(row[i ^ 1] - above[i ^ 1]);
+      }
+    }
+  });
+  return filtered;
+}
+
+// Measured on rendered pictures, RGBA, one thread: level 1 takes 16 ms for 1024 x 1024 (980 kB) and 26 ms for 1920 x 1080
+// with a background (1170 kB); level 3 takes 27 and 36 ms and makes files 2 to 3 % smaller. zlib's level 2 takes 33 and
+// 42 ms and makes them 5 to 8 % larger. The filter Sub costs 3 % in the one and saves 7 % in the other.
+PageVector<unsigned char> Pack(const Image& image) {
+  const PageVector<unsigned char> filtered = FilterRows(image);
+  const std::unique_ptr<libdeflate_compressor, void (*)(libdeflate_compressor*)> compressor(
+      libdeflate_alloc_compressor(1), libdeflate_free_compressor);
+  if (!compressor) throw Error(ErrorCode::OutOfMemory, "no memory for libdeflate");
+  PageVector<unsigned char> packed(libdeflate_zlib_compress_bound(compressor.get(), filtered.size()));
+  packed.resize(libdeflate_zlib_compress(compressor.get(), filtered.data(), filtered.size(), packed.data(),
+                                         packed.size()));
+  return packed;
 }
 
 bool IsAscii(const std::string& text) {
@@ -183,7 +224,8 @@ bool LooksLikePng(std::span<const std::byte> bytes) {
   return bytes.size() >= 8 && std::memcmp(bytes.data(), kSignature, 8) == 0;
 }
 
-Image DecodePng(std::span<const std::byte> bytes, const std::string& name) {
+void DecodePng(std::span<const std::byte> bytes, const std::string& name, int piece_rows,
+               const PieceReceiver& receive) {
   Reader reader;
   Cursor cursor{bytes.data(), bytes.size()};
   png_set_read_fn(reader.png, &cursor, ReadBytes);
@@ -196,7 +238,6 @@ Image DecodePng(std::span<const std::byte> bytes, const std::string& name) {
 
   Image image;
   image.width = static_cast<int>(header.width);
-  image.height = static_cast<int>(header.height);
   image.channels = header.channels;
   image.type = header.bit_depth == 16 ? ChannelType::U16 : ChannelType::U8;
   image.encoding = Encoding::Srgb;
@@ -204,13 +245,22 @@ Image DecodePng(std::span<const std::byte> bytes, const std::string& name) {
   if (png_get_rowbytes(reader.png, reader.info) != row_bytes) {
     throw Error(ErrorCode::Internal, "libpng's rows have an unexpected length", name);
   }
-  image.bytes = AllocatePixels(row_bytes * header.height, name);
-  std::vector<png_bytep> rows(header.height);
-  for (std::size_t y = 0; y < rows.size(); ++y) {
-    rows[y] = reinterpret_cast<png_bytep>(image.bytes.data() + y * row_bytes);
+  const int height = static_cast<int>(header.height);
+  const int most = header.passes > 1 ? height : std::min(piece_rows, height);
+  image.bytes = AllocatePixels(row_bytes * std::size_t(most), name);
+  for (int first = 0; first < height; first += most) {
+    image.height = std::min(most, height - first);
+    image.bytes.resize(row_bytes * std::size_t(image.height));
+    std::vector<png_bytep> rows(static_cast<std::size_t>(image.height));
+    for (std::size_t y = 0; y < rows.size(); ++y) {
+      rows[y] = reinterpret_cast<png_bytep>(image.bytes.data() + y * row_bytes);
+    }
+    if (!ReadRows(reader.png, header.passes, rows.data(), static_cast<png_uint_32>(image.height),
+                  first + image.height == height)) {
+      throw fail();
+    }
+    receive(image, height);
   }
-  if (!ReadRows(reader.png, rows.data())) throw fail();
-  return image;
 }
 
 std::map<std::string, std::string> ReadPngText(std::span<const std::byte> bytes, const std::string& name) {
@@ -228,11 +278,24 @@ std::map<std::string, std::string> ReadPngText(std::span<const std::byte> bytes,
   return text;
 }
 
-std::vector<std::byte> EncodePng(const Image& image, const std::vector<std::array<std::string, 2>>& text) {
+std::vector<std::byte> EncodePng(const Image& image, const PngText& text) {
+  return EncodePng(image, [&] { return text; });
+}
+
+std::vector<std::byte> EncodePng(const Image& image, const std::function<PngText()>& make_text) {
   CheckImage(image, "picture to write");
   if (image.type == ChannelType::F32) {
     throw Error(ErrorCode::InvalidUsage, "a PNG cannot hold floats", {}, "develop to 8 or 16 bits, or write .exr");
   }
+  PageVector<unsigned char> packed;
+  PngText text;
+  ParallelFor(2, 1, [&](std::size_t piece, std::size_t) {
+    if (piece == 0) {
+      packed = Pack(image);
+    } else {
+      text = make_text();
+    }
+  });
   std::vector<png_text> chunks;
   for (const auto& [key, value] : text) {
     CheckKeyword(key);
@@ -245,13 +308,8 @@ std::vector<std::byte> EncodePng(const Image& image, const std::vector<std::arra
     (ascii ? chunk.text_length : chunk.itxt_length) = value.size();
     chunks.push_back(chunk);
   }
-  const std::size_t row_bytes = std::size_t(image.width) * std::size_t(image.channels) * SizeOf(image.type);
-  std::vector<png_bytep> rows(static_cast<std::size_t>(image.height));
-  for (std::size_t y = 0; y < rows.size(); ++y) {
-    rows[y] = const_cast<png_bytep>(image.As<png_byte>() + y * row_bytes);
-  }
   std::vector<std::byte> out;
-  out.reserve(row_bytes * rows.size() / 4 + 4096);
+  out.reserve(packed.size() + 4096);
   Writer writer;
   png_set_write_fn(writer.png, &out, AppendBytes, nullptr);
   WritePlan plan{static_cast<png_uint_32>(image.width),
@@ -261,7 +319,8 @@ std::vector<std::byte> EncodePng(const Image& image, const std::vector<std::arra
                  image.encoding,
                  chunks.data(),
                  static_cast<int>(chunks.size()),
-                 rows.data()};
+                 packed.data(),
+                 packed.size()};
   if (!WriteAll(writer.png, writer.info, &plan)) {
     throw Error(ErrorCode::OutputFailed, std::string("libpng: ") + writer.complaint.text);
   }

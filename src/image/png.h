@@ -6,12 +6,13 @@
 #include <string>
 
 #include "facet/image.h"
+#include "image/limits.h"
 
 namespace facet {
 
 bool LooksLikePng(std::span<const std::byte> bytes);
 
-// See DecodeImage. The whole file must be there and every checksum right.
-Image DecodePng(std::span<const std::byte> bytes, const std::string& name);
+// See DecodeImage; gives pieces of `piece_rows` rows, the last maybe fewer. The whole file must be there and every checksum right.
+void DecodePng(std::span<const std::byte> bytes, const std::string& name, int piece_rows, const PieceReceiver& receive);
 
 }  // namespace facet

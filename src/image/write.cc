@@ -105,9 +105,14 @@ void CheckFolderWritable(const std::filesystem::path& path) {
 
 void WriteImage(const std::filesystem::path& path, const Image& image,
                 const std::vector<std::array<std::string, 2>>& text) {
+  WriteImageWithText(path, image, [&] { return text; });
+}
+
+void WriteImageWithText(const std::filesystem::path& path, const Image& image,
+                        const std::function<PngText()>& make_text) {
   const Holds holds = HoldsOf(path);
   CheckImage(image, path.c_str());
-  if (holds == Holds::Png) return WriteFileWhole(path, EncodePng(image, text));
+  if (holds == Holds::Png) return WriteFileWhole(path, EncodePng(image, make_text));
 
   bool premultiplied = false;
   Image form;

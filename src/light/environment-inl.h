@@ -61,12 +61,8 @@ HWY_INLINE Vec3<T> SampleEquirectangular(const float* picture, std::int32_t widt
   const IntOf<T> top = TruncateToInt(y0) * row;
   const IntOf<T> i00 = top + TruncateToInt(x0) * four;
   const IntOf<T> i10 = top + TruncateToInt(x1) * four;
-  const auto channel = [&](int c) HWY_ATTR {
-    const T upper = Mix(Fetch<T>(picture + c, i00), Fetch<T>(picture + c, i10), fx);
-    const T lower = Mix(Fetch<T>(picture + c, i00 + row), Fetch<T>(picture + c, i10 + row), fx);
-    return Mix(upper, lower, fy);
-  };
-  return {channel(0), channel(1), channel(2)};
+  const auto texel = [&](IntOf<T> i) HWY_ATTR { return Xyz(FetchVec4<T>(picture, i)); };
+  return Mix(Mix(texel(i00), texel(i10), fx), Mix(texel(i00 + row), texel(i10 + row), fx), fy);
 }
 
 // What is seen in a direction: the picture where it was kept, else level 0.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/glm.hpp>
 
 #include "base/check.h"
 #include "base/parallel.h"
@@ -159,21 +160,45 @@ std::vector<LobeSample> MakeLobe(double alpha, int count, const std::vector<Cell
   return samples;
 }
 
-std::vector<SourceTexel> MakeSource(const float* texels, const Cells& level) {
-  std::vector<SourceTexel> source;
-  source.reserve(std::size_t(level.size) * std::size_t(level.size));
-  for (std::int32_t j = 0; j < level.size; ++j) {
-    const float* row = texels + level.Origin() + std::ptrdiff_t(j) * (level.size + 2) * 4;
-    for (std::int32_t i = 0; i < level.size; ++i) {
-      const double u = 2.0 * (i + 0.5) / level.size - 1.0;
-      const double v = 2.0 * (j + 0.5) / level.size - 1.0;
-      const double y = 1.0 - std::fabs(u) - std::fabs(v);
-      const double x = y < 0.0 ? std::copysign(1.0 - std::fabs(v), u) : u;
-      const double z = y < 0.0 ? std::copysign(1.0 - std::fabs(u), v) : v;
-      const double length = std::sqrt(x * x + y * y + z * z);
+glm::dvec3 DirectionOfCell(std::int32_t i, std::int32_t j, std::int32_t size) {
+  const double u = 2.0 * (i + 0.5) / size - 1.0;
+  const double v = 2.0 * (j + 0.5) / size - 1.0;
+  const double y = 1.0 - std::fabs(u) - std::fabs(v);
+  const double x = y < 0.0 ? std::copysign(1.0 - std::fabs(v), u) : u;
+  const double z = y < 0.0 ? std::copysign(1.0 - std::fabs(u), v) : v;
+  return glm::dvec3(x, y, z) / std::sqrt(x * x + y * y + z * z);
+}
+
+// The light of each cell of `coarse` comes from the centroid of what its cells of `fine` shine: a sun keeps its place to
+// a fraction of a coarse cell, which leaves a tenth of the error that the cells' centres do.
+std::vector<SourceTexel> MakeSource(const float* texels, const Cells& fine, const Cells& coarse) {
+  struct Moments {
+    glm::dvec3 light{0.0}, area{0.0};
+  };
+  const std::int32_t ratio = fine.size / coarse.size;
+  std::vector<Moments> moments(std::size_t(coarse.size) * std::size_t(coarse.size));
+  for (std::int32_t j = 0; j < fine.size; ++j) {
+    const float* row = texels + fine.Origin() + std::ptrdiff_t(j) * (fine.size + 2) * 4;
+    for (std::int32_t i = 0; i < fine.size; ++i) {
       const float* p = row + 4 * i;
-      source.push_back({static_cast<float>(x / length), static_cast<float>(y / length), static_cast<float>(z / length),
-                        p[3], p[0] * p[3], p[1] * p[3], p[2] * p[3]});
+      const glm::dvec3 area = DirectionOfCell(i, j, fine.size) * double(p[3]);
+      Moments& m = moments[std::size_t(j / ratio * coarse.size + i / ratio)];
+      m.area += area;
+      m.light += area * (double(p[0]) + double(p[1]) + double(p[2]));
+    }
+  }
+  const auto unit = [](const glm::dvec3& v) { return glm::vec3(v / std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z)); };
+  std::vector<SourceTexel> source;
+  source.reserve(moments.size());
+  for (std::int32_t j = 0; j < coarse.size; ++j) {
+    const float* row = texels + coarse.Origin() + std::ptrdiff_t(j) * (coarse.size + 2) * 4;
+    for (std::int32_t i = 0; i < coarse.size; ++i) {
+      const Moments& m = moments[source.size()];
+      const glm::vec3 center = unit(m.area);
+      const glm::vec3 light = m.light == glm::dvec3(0.0) ? center : unit(m.light);
+      const float* p = row + 4 * i;
+      source.push_back({light.x, light.y, light.z, center.x, center.y, center.z, p[3], p[0] * p[3], p[1] * p[3],
+                        p[2] * p[3]});
     }
   }
   return source;
@@ -181,9 +206,13 @@ std::vector<SourceTexel> MakeSource(const float* texels, const Cells& level) {
 
 // Levels below kFirstConvolved are sampled, the others are rough enough to be summed over every texel of a small map.
 constexpr int kFirstConvolved = 4;
-constexpr std::int32_t kNominalSize[EnvironmentMap::kLevels] = {0, 256, 128, 64, 64, 32, 32, 32, 32};
+constexpr std::int32_t kConvolvedSize = 32;
+static_assert(kFirstConvolved + kConvolvedLobes + 1 == EnvironmentMap::kLevels);
+static_assert(kConvolvedSize == EnvironmentMap::kIrradianceSize);
+constexpr std::int32_t kNominalSize[EnvironmentMap::kLevels] = {0, 256, 128, 64, kConvolvedSize, kConvolvedSize, kConvolvedSize, kConvolvedSize,
+                                                             kConvolvedSize};
 constexpr int kSampleFactor[kFirstConvolved] = {0, 1, 2, 4};
-constexpr std::int32_t kSourceSize = 64;
+constexpr std::int32_t kSourceSize = 32, kCentroidSize = 128;
 constexpr std::int32_t kSmallestBase = 64;
 constexpr std::int32_t kSmallestOfChain = 8;  // coarser squares bend too much for bilinear reading
 
@@ -214,32 +243,28 @@ void FillSampledLevels(EnvironmentMap* map, const std::vector<float>& chain_texe
   });
 }
 
-// The rough levels and, as the last of them, the irradiance where it is convolved. Squares of one size share the sum
-// over the source.
-void FillConvolvedLevels(EnvironmentMap* map, const std::vector<SourceTexel>& source, IrradianceMethod method) {
-  constexpr int kMost = EnvironmentMap::kLevels - kFirstConvolved + 1;
-  const int count = method == IrradianceMethod::Convolution ? kMost : kMost - 1;
-  const Level* squares[kMost];
-  float alpha[kMost];
-  for (int k = 0; k < count; ++k) {
-    const bool is_irradiance = k + 1 == kMost;
-    squares[k] = is_irradiance ? &map->irradiance : &map->levels[kFirstConvolved + k];
-    alpha[k] = is_irradiance ? 0.0f : static_cast<float>(AlphaOfLevel(kFirstConvolved + k));
-  }
-  for (int first = 0, last = 0; first < count; first = last) {
-    while (last < count && last - first < kMaxConvolutions && squares[last]->size == squares[first]->size) ++last;
-    ParallelFor(std::size_t(squares[first]->size) + 1, 2, [&](std::size_t begin, std::size_t end) {
-      for (auto row = std::int32_t(begin); row < std::int32_t(end); ++row) {
-        ConvolveRowTask task{
-            source.data(), std::int32_t(source.size()), last - first, {}, squares[first]->size, row, {}};
-        for (int k = first; k < last; ++k) {
-          task.alpha[k - first] = alpha[k];
-          task.out[k - first] = RowOf(map, *squares[k], row);
-        }
-        ConvolveRow(task);
+// The rough levels.
+void FillConvolvedLevels(EnvironmentMap* map, const std::vector<SourceTexel>& source) {
+  ParallelFor(std::size_t(kConvolvedSize) + 1, 2, [&](std::size_t begin, std::size_t end) {
+    for (auto row = std::int32_t(begin); row < std::int32_t(end); ++row) {
+      ConvolveRowTask task{source.data(), std::int32_t(source.size()), {}, kConvolvedSize, row, {}};
+      for (int k = 0; k <= kConvolvedLobes; ++k) {
+        if (k < kConvolvedLobes) task.alpha[k] = static_cast<float>(AlphaOfLevel(kFirstConvolved + k));
+        task.out[k] = RowOf(map, map->levels[kFirstConvolved + k], row);
       }
-    });
+      ConvolveRow(task);
+    }
+  });
+}
+
+// Of light weighted by the cosine: what the roughest level holds.
+void FillIrradiance(EnvironmentMap* map, const std::vector<SourceTexel>& source, IrradianceMethod method) {
+  if (method == IrradianceMethod::SphericalHarmonics) {
+    FillIrradianceFromHarmonics(source, map->irradiance.size, RowOf(map, map->irradiance, 0));
+    return;
   }
+  const float* roughest = RowOf(map, map->levels[EnvironmentMap::kLevels - 1], 0);
+  std::copy_n(roughest, (kConvolvedSize + 1) * (kConvolvedSize + 1) * 4, RowOf(map, map->irradiance, 0));
 }
 
 }  // namespace
@@ -299,14 +324,13 @@ std::shared_ptr<const EnvironmentMap> PrefilterEnvironment(const Image& equirect
   for (std::size_t k = 1; k < chain.size(); ++k) HalveSquare(chain_texels.data(), chain[k - 1], chain[k]);
 
   FillSampledLevels(map.get(), chain_texels, chain, options.samples);
-  const auto source_level =
-      std::find_if(chain.begin(), chain.end(), [](const Cells& c) { return c.size == kSourceSize; });
-  FACET_CHECK(source_level != chain.end());
-  const std::vector<SourceTexel> source = MakeSource(chain_texels.data(), *source_level);
-  FillConvolvedLevels(map.get(), source, options.irradiance);
-  if (options.irradiance == IrradianceMethod::SphericalHarmonics) {
-    FillIrradianceFromHarmonics(source, map->irradiance.size, map->texels.data() + map->irradiance.offset);
-  }
+  const auto level_of = [&](std::int32_t size) {
+    return *std::find_if(chain.begin(), chain.end(), [&](const Cells& c) { return c.size <= size; });
+  };
+  const std::vector<SourceTexel> source =
+      MakeSource(chain_texels.data(), level_of(kCentroidSize), level_of(kSourceSize));
+  FillConvolvedLevels(map.get(), source);
+  FillIrradiance(map.get(), source, options.irradiance);
   return map;
 }
 

@@ -63,7 +63,7 @@ struct EnvironmentMap {
 struct EnvironmentOptions {
   bool keep_picture = false;  // for Background()
   int max_size = 1024;        // of level 0, a power of two of 64 at least; the default suits pictures of 2048 x 1024 and more
-  int samples = 48;           // of the narrowest lobe
+  int samples = 24;           // of the narrowest lobe
   IrradianceMethod irradiance = IrradianceMethod::Convolution;
   friend auto operator<=>(const EnvironmentOptions&, const EnvironmentOptions&) = default;
 };

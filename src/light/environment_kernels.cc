@@ -86,29 +86,43 @@ void FilterLobeRow(const LobeRowTask& task) {
   }
 }
 
+// What light from `direction` weighs in each mean of a ConvolveRowTask.
+HWY_INLINE void LobeWeights(const ConvolveRowTask& task, Float n_dot_l, Float (&weight)[kConvolvedLobes + 1]) {
+  static_assert(kConvolvedLobes == 4);
+  const Float cosine = Max(n_dot_l, Float(0.0f));
+  const Float n_dot_h2 = Float(0.5f) + Float(0.5f) * cosine;  // the half-angle formula; view = normal
+  Float t[kConvolvedLobes];
+  for (int k = 0; k < kConvolvedLobes; ++k) {
+    t[k] = n_dot_h2 * Float(task.alpha[k] * task.alpha[k] - 1.0f) + Float(1.0f);
+  }
+  // cosine / t^2 of each, by one division: 1 / t[0] = t[1] t[2] t[3] / (t[0] t[1] t[2] t[3]).
+  const Float t01 = t[0] * t[1], t23 = t[2] * t[3];
+  const Float inverse = Float(1.0f) / (t01 * t23);
+  const Float inverse01 = inverse * t23, inverse23 = inverse * t01;
+  const Float inverse_t[kConvolvedLobes] = {inverse01 * t[1], inverse01 * t[0], inverse23 * t[3], inverse23 * t[2]};
+  for (int k = 0; k < kConvolvedLobes; ++k) weight[k] = cosine * inverse_t[k] * inverse_t[k];
+  weight[kConvolvedLobes] = cosine;
+}
+
 void ConvolveRow(const ConvolveRowTask& task) {
   for (std::int32_t first = 0; first <= task.size; first += static_cast<std::int32_t>(LaneCount())) {
     const Vec3<Float> n = DirectionFromOctahedron(NodesOfRow(first, task.row, task.size));
-    Vec3<Float> sum[kMaxConvolutions] = {};
-    Float norm[kMaxConvolutions] = {};
+    const auto cosine_to = [&](float x, float y, float z) HWY_ATTR { return n.x * Float(x) + n.y * Float(y) + n.z * Float(z); };
+    Vec3<Float> sum[kConvolvedLobes + 1] = {};
+    Float norm[kConvolvedLobes + 1] = {};
+    Float weight[kConvolvedLobes + 1];
     for (std::int32_t i = 0; i < task.source_count; ++i) {
       const SourceTexel& source = task.source[i];
-      const Float n_dot_l = n.x * Float(source.x) + n.y * Float(source.y) + n.z * Float(source.z);
-      const Mask lit = n_dot_l > Float(0.0f);
-      if (!Any(lit)) continue;
-      const Float cosine = Select(lit, n_dot_l, Float(0.0f));
-      const Float n_dot_h2 = Float(0.5f) + Float(0.5f) * cosine;  // the half-angle formula; view = normal
-      for (std::int32_t k = 0; k < task.count; ++k) {
-        const float a2 = task.alpha[k] * task.alpha[k];
-        const Float t = n_dot_h2 * Float(a2 - 1.0f) + Float(1.0f);
-        const Float weight = task.alpha[k] > 0.0f ? cosine / (t * t) : cosine;
-        norm[k] += weight * Float(source.solid_angle);
-        sum[k] += Vec3<Float>{Float(source.r), Float(source.g), Float(source.b)} * weight;
-      }
+      const Float center = cosine_to(source.center_x, source.center_y, source.center_z);
+      const Float light = cosine_to(source.x, source.y, source.z);
+      if (!Any(Max(center, light) > Float(0.0f))) continue;
+      LobeWeights(task, center, weight);
+      for (int k = 0; k <= kConvolvedLobes; ++k) norm[k] += weight[k] * Float(source.solid_angle);
+      LobeWeights(task, light, weight);
+      const Vec3<Float> power = {Float(source.r), Float(source.g), Float(source.b)};
+      for (int k = 0; k <= kConvolvedLobes; ++k) sum[k] += power * weight[k];
     }
-    for (std::int32_t k = 0; k < task.count; ++k) {
-      StoreTexels(sum[k] / norm[k], Float(0.0f), first, task.size, task.out[k]);
-    }
+    for (int k = 0; k <= kConvolvedLobes; ++k) StoreTexels(sum[k] / norm[k], Float(0.0f), first, task.size, task.out[k]);
   }
 }
 

@@ -36,24 +36,24 @@ struct LobeRowTask {
 };
 void FilterLobeRow(const LobeRowTask& task);
 
-// One texel of the source of ConvolveRow: direction and radiance, weighted by solid angle.
+// A cell of the source of ConvolveRow.
 struct SourceTexel {
-  float x, y, z;
+  float x, y, z;                    // unit: where its light comes from, the centroid of what it shines
+  float center_x, center_y, center_z;  // unit: the centroid of its area
   float solid_angle;
   float r, g, b;  // radiance * solid angle
 };
 
-constexpr int kMaxConvolutions = 5;
+constexpr int kConvolvedLobes = 4;
 
-// The same row of up to five squares at once. Square k is the mean of the source, weighted by
-// n_dot_l D(h; alpha[k]) with h between n and l, or by n_dot_l alone where alpha[k] is 0.
+// The same row of five squares at once: means of the source weighted by n_dot_l D(h; alpha[k]), with h between n and l, and,
+// as the last of them, by n_dot_l alone, which is a lobe of alpha 1 as well.
 struct ConvolveRowTask {
   const SourceTexel* source;
   std::int32_t source_count;
-  std::int32_t count;
-  float alpha[kMaxConvolutions];
+  float alpha[kConvolvedLobes];
   std::int32_t size, row;
-  float* out[kMaxConvolutions];
+  float* out[kConvolvedLobes + 1];
 };
 void ConvolveRow(const ConvolveRowTask& task);
 

@@ -53,23 +53,17 @@ HWY_INLINE SpecularAlbedo<T> LookupDfg(const DfgTable& table, T n_dot_v, T perce
   const TablePosition<T> row = DfgRow(perceptual_roughness);
   const TablePosition<T> column = PositionInTable(Sqrt(Sqrt(Max(n_dot_v, T(0.0f)))) * T(last), last);
   const IntOf<T> index = (row.index * IntOf<T>(DfgTable::kColumns) + column.index) * IntOf<T>(2);
-  const auto read = [&](int c) HWY_ATTR {
-    const float* p = table.albedo + c;
-    const float* next = p + 2 * DfgTable::kColumns;
-    return Mix(Mix(Fetch<T>(p, index), Fetch<T>(p + 2, index), column.fraction),
-               Mix(Fetch<T>(next, index), Fetch<T>(next + 2, index), column.fraction), row.fraction);
-  };
-  return {read(0), read(1)};
+  // A and B of this column and the next, in this row and the next.
+  const Vec4<T> p = FetchVec4<T>(table.albedo, index), q = FetchVec4<T>(table.albedo + 2 * DfgTable::kColumns, index);
+  return {Mix(Mix(p.x, p.z, column.fraction), Mix(q.x, q.z, column.fraction), row.fraction),
+          Mix(Mix(p.y, p.w, column.fraction), Mix(q.y, q.w, column.fraction), row.fraction)};
 }
 
 template <class T>
 HWY_INLINE SpecularAlbedo<T> LookupDfgAverage(const DfgTable& table, T perceptual_roughness) {
   const TablePosition<T> row = DfgRow(perceptual_roughness);
-  const IntOf<T> index = row.index * IntOf<T>(2);
-  const auto read = [&](int c) HWY_ATTR {
-    return Mix(Fetch<T>(table.average + c, index), Fetch<T>(table.average + c + 2, index), row.fraction);
-  };
-  return {read(0), read(1)};
+  const Vec4<T> p = FetchVec4<T>(table.average, row.index * IntOf<T>(2));  // A and B of this row and the next
+  return {Mix(p.x, p.z, row.fraction), Mix(p.y, p.w, row.fraction)};
 }
 
 // The Lighting that material/closure-inl.h asks for. Directions in world axes.

@@ -54,11 +54,9 @@ HWY_INLINE Vec3<T> SampleTexels(const float* texels, T x, T y, T last, IntOf<T> 
   const T w10 = fx * (T(1.0f) - fy);
   const T w01 = (T(1.0f) - fx) * fy;
   const T w11 = fx * fy;
-  const auto channel = [&](int c) HWY_ATTR {
-    return (Fetch<T>(texels + c, i00) * w00 + Fetch<T>(texels + c + 4, i00) * w10) +
-           (Fetch<T>(texels + c, i01) * w01 + Fetch<T>(texels + c + 4, i01) * w11);
-  };
-  return {channel(0), channel(1), channel(2)};
+  const auto texel = [&](IntOf<T> i) HWY_ATTR { return Xyz(FetchVec4<T>(texels, i)); };
+  const IntOf<T> four = 4;
+  return (texel(i00) * w00 + texel(i00 + four) * w10) + (texel(i01) * w01 + texel(i01 + four) * w11);
 }
 
 // A square of `size` x `size` cells with texels at its nodes, at uv in [0, 1]^2.

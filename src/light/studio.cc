@@ -122,7 +122,8 @@ Image StudioPicture(int width, int height) {
   return image;
 }
 
-std::shared_ptr<const EnvironmentMap> StudioEnvironment(const EnvironmentOptions& options) {
+std::shared_ptr<const EnvironmentMap> StudioEnvironment(EnvironmentOptions options) {
+  options.max_size = std::min(options.max_size, kStudioMaxSize);
   static std::mutex mutex;
   static std::map<EnvironmentOptions, std::shared_ptr<const EnvironmentMap>> prepared;
   {

@@ -17,7 +17,10 @@ Image StudioPicture(int width, int height);
 // The size of the picture that lights scenes: nothing in the room is sharper than its pixels.
 inline constexpr int kStudioWidth = 512, kStudioHeight = 256;
 
+// The sharpest level that it is prepared with: finer ones change no picture by what one could see (docs/accuracy.md).
+inline constexpr int kStudioMaxSize = 128;
+
 // The same, prepared; made once per process and value of `options`. Thread-safe.
-std::shared_ptr<const EnvironmentMap> StudioEnvironment(const EnvironmentOptions& options = {});
+std::shared_ptr<const EnvironmentMap> StudioEnvironment(EnvironmentOptions options = {});
 
 }  // namespace facet

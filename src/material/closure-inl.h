@@ -11,7 +11,8 @@
 //
 // Under image-based light the directional terms become albedos (Karis, 2013, Real Shading in Unreal Engine 4: split sum;
 // Fdez-Aguera, 2019, A Multiple-Scattering Microfacet Model for Real-Time Image-based Lighting):
-//    prefiltered(r) (F0 A + B) + [ Fms (1 - E) + (1 - metallic) base (1 - Ed) ] irradiance / pi.
+//    prefiltered(d) (F0 A + B) + [ Fms (1 - E) + (1 - metallic) base (1 - Ed) ] irradiance / pi.
+// d is where the lobe's light comes from, which is the mirror direction only for smooth surfaces.
 // Occlusion multiplies all of that, the specular part too: a cavity sees less of its surroundings in every direction. It
 // never touches punctual lights or emission (glTF 2.0, section 3.9.2).
 
@@ -143,12 +144,22 @@ HWY_INLINE Vec3<T> EvaluateClosure(const MetallicRoughnessClosure<T>& c, Vec3<T>
   return Select<T>(lit, brdf * n_dot_l, Vec3<T>{});
 }
 
+// Where a rough lobe gathers most of its light: between the mirror direction and the normal, because masking and the cosine
+// take more of its grazing side (Lagarde and de Rousiers, 2014, Moving Frostbite to Physically Based Rendering, section
+// 4.9.3). The weight of the normal is close to the best under soft lamps (src/light/fit_dominant_direction.py measures it)
+// and a little less on smoother surfaces, where the small suns of photographed skies ask for that. Not unit.
+template <class T>
+HWY_INLINE Vec3<T> DominantDirection(const MetallicRoughnessClosure<T>& c) {
+  const Vec3<T> mirror = c.normal * (T(2.0f) * Dot(c.normal, c.view)) - c.view;
+  const T to_normal = c.alpha * c.alpha * (T(1.5f) + c.alpha * (T(0.35f) - c.alpha * T(0.95f)));
+  return Mix(mirror, c.normal, to_normal);
+}
+
 // What the surface reflects of the environment, unoccluded. `perceptual_roughness` is the material's, unclamped.
 template <class T, class Lighting>
 HWY_INLINE Vec3<T> EvaluateEnvironment(const MetallicRoughnessClosure<T>& c, T perceptual_roughness,
                                        const Lighting& lighting) {
-  const Vec3<T> reflected = c.normal * (T(2.0f) * Dot(c.normal, c.view)) - c.view;
-  const Vec3<T> specular = lighting.Prefiltered(reflected, perceptual_roughness);
+  const Vec3<T> specular = lighting.Prefiltered(DominantDirection(c), perceptual_roughness);
   const Vec3<T> around = lighting.IrradianceOverPi(c.normal);
   const Vec3<T> single = {c.f0.x * c.albedo.a + c.albedo.b, c.f0.y * c.albedo.a + c.albedo.b,
                           c.f0.z * c.albedo.a + c.albedo.b};

@@ -5,6 +5,8 @@
 #include <tuple>
 #include <utility>
 
+#include "facet/shader.h"
+#include "plan/unused_features.h"
 #include "scene/topology.h"
 
 namespace facet {
@@ -33,11 +35,13 @@ class Planner {
   }
 
   FramePlan plan;
+  FeatureSet stated;  // what a drawn material says it has, of use or not
 
  private:
   PlannedMaterial Plan(Material material, int index, bool unlit, bool colors, bool flat) {
     material.unlit = unlit;
     if (flat) material.normal_texture = {};
+    LeaveOut(material, colors);
     PlannedMaterial planned;
     planned.material = index;
     planned.unlit = unlit;
@@ -86,6 +90,28 @@ class Planner {
     return planned;
   }
 
+  // What the settings leave out, as if the file did not state it.
+  void LeaveOut(Material& m, bool& colors) {
+    const auto leave_out = [&](Feature feature, bool is_stated, auto&& remove) {
+      if (!is_stated) return;
+      stated.Add(feature);
+      if (settings_.without.Has(feature)) remove();
+    };
+    const auto texture = [&](Feature feature, TextureRef& ref) { leave_out(feature, bool(ref), [&ref] { ref = {}; }); };
+    texture(Feature::BaseColorTexture, m.base_color_texture);
+    texture(Feature::MetallicRoughnessTexture, m.metallic_roughness_texture);
+    texture(Feature::NormalTexture, m.normal_texture);
+    texture(Feature::Occlusion, m.occlusion_texture);
+    leave_out(Feature::Emission, m.emissive_factor != glm::vec3(0.0f) || m.emissive_texture, [&m] {
+      m.emissive_factor = glm::vec3(0.0f);
+      m.emissive_texture = {};
+    });
+    leave_out(Feature::VertexColors, colors, [&colors] { colors = false; });
+    const auto opaque = [&m] { m.alpha_mode = AlphaMode::Opaque; };
+    leave_out(Feature::AlphaTest, m.alpha_mode == AlphaMode::Mask, opaque);
+    leave_out(Feature::Blending, m.alpha_mode == AlphaMode::Blend, opaque);
+  }
+
   int TextureFor(int image, TextureRole role, bool mips) {
     const auto [known, is_new] = textures_.try_emplace({image, role}, static_cast<int>(plan.textures.size()));
     if (is_new) plan.textures.push_back({image, role, false});
@@ -107,7 +133,31 @@ class Planner {
   std::map<std::pair<int, TextureRole>, int> textures_;
 };
 
+bool HasMorphTargets(const Scene& scene) {
+  for (const Mesh& mesh : scene.meshes) {
+    for (const Primitive& primitive : mesh.primitives) {
+      if (!primitive.targets.empty()) return true;
+    }
+  }
+  return false;
+}
+
+constexpr const char* kOnRequest = "on request";
+
 }  // namespace
+
+PoseSettings PoseOf(const RenderSettings& settings) {
+  PoseSettings pose;
+  pose.scene = settings.scene;
+  pose.animation = settings.animation;
+  pose.time = settings.time;
+  pose.variant = settings.variant;
+  pose.generate_tangents = settings.tangents == TangentSource::Generated;
+  pose.normal_textures = !settings.without.Has(Feature::NormalTexture);
+  pose.skins = !settings.without.Has(Feature::Skins);
+  pose.morph_targets = !settings.without.Has(Feature::MorphTargets);
+  return pose;
+}
 
 FramePlan MakeFramePlan(const Scene& scene, const PosedScene& posed, const RenderSettings& settings) {
   Planner planner(scene, settings);
@@ -119,27 +169,70 @@ FramePlan MakeFramePlan(const Scene& scene, const PosedScene& posed, const Rende
     return std::any_of(plan.materials.begin(), plan.materials.end(),
                        [&](const PlannedMaterial& m) { return predicate(m.frame); });
   };
-  const auto leave_out = [&](const char* what, const char* why) {
-    plan.left_out.push_back(std::string(what) + ": " + why);
+  const auto any_has = [&](MaterialFeature feature) {
+    return any([&](const FrameMaterial& m) { return m.Has(feature); });
   };
-  const bool lit = any([](const FrameMaterial& m) { return m.Has(kLit); }) || settings.shader != nullptr;
+  const auto asked_out = [&](Feature feature) { return settings.without.Has(feature); };
+  // Either the frame uses it, or it is left out, and here is why.
+  const auto decide = [&](bool used, Feature feature, const char* what, const char* why) {
+    if (used) {
+      plan.uses.Add(feature);
+    } else {
+      plan.left_out.push_back(std::string(what) + ": " + why);
+    }
+  };
+  // The same for what materials state: `none` is why where no drawn material does.
+  const auto decide_of_materials = [&](bool used, Feature feature, const char* what, const char* none) {
+    decide(used, feature, what,
+           !planner.stated.Has(feature) ? none
+           : asked_out(feature)         ? kOnRequest
+                                        : "shows nothing: unlit materials, factors of 0 or textures without a picture");
+  };
+
+  decide_of_materials(any_has(kBaseColorTexture), Feature::BaseColorTexture, "base colour textures",
+                      "no drawn material has one");
+  decide_of_materials(any_has(kMetallicRoughnessTexture), Feature::MetallicRoughnessTexture,
+                      "metallic-roughness textures", "no drawn material has one");
+  decide_of_materials(any_has(kNormalTexture), Feature::NormalTexture, "normal textures", "no drawn material has one");
+  if (!plan.uses.Has(Feature::NormalTexture)) plan.left_out.emplace_back("tangents: no normal texture is read");
+  decide_of_materials(any_has(kOcclusionTexture), Feature::Occlusion, "occlusion textures",
+                      "no drawn material has one");
+  decide_of_materials(any_has(kEmission), Feature::Emission, "emission", "no drawn material emits");
+  decide_of_materials(any([](const FrameMaterial& m) { return m.vertex_colors; }), Feature::VertexColors,
+                      "vertex colours", "no drawn geometry has them");
+
+  const LightUse light_use = settings.shader != nullptr ? settings.shader->Light() : LightUse::LitMaterials;
+  const bool lit = light_use == LightUse::EveryMaterial || (light_use == LightUse::LitMaterials && any_has(kLit));
+  const char* const unlit = light_use == LightUse::None ? "the shader reads no light" : "no lit material";
   const bool has_environment = settings.environment.kind != EnvironmentSettings::Kind::None;
-  plan.environment_light = lit && has_environment;
+  plan.environment_light = lit && has_environment && !asked_out(Feature::EnvironmentLight);
   plan.environment_background = settings.background == Background::Environment && has_environment;
-  plan.punctual_lights = lit && !posed.lights.empty();
+  plan.punctual_lights = lit && !posed.lights.empty() && !asked_out(Feature::PunctualLights);
   plan.alpha_test = any([](const FrameMaterial& m) { return m.alpha_mode == AlphaMode::Mask; });
   plan.blending = any([](const FrameMaterial& m) { return m.alpha_mode == AlphaMode::Blend; });
 
-  if (!plan.environment_light) leave_out("environment light", lit ? "no environment" : "no lit material");
-  if (!plan.environment_background) leave_out("environment background", "not asked for");
-  if (!plan.punctual_lights) leave_out("punctual lights", lit ? "the scene has none" : "no lit material");
-  if (!plan.alpha_test) leave_out("alpha test", "no material with alpha mode MASK");
-  if (!plan.blending) leave_out("blending", "no material with alpha mode BLEND");
-  if (!any([](const FrameMaterial& m) { return m.Has(kNormalTexture); })) {
-    leave_out("tangents", "no normal texture");
+  decide(plan.environment_light, Feature::EnvironmentLight, "environment light",
+         !has_environment ? "no environment"
+         : lit            ? kOnRequest
+                          : unlit);
+  if (!plan.environment_background) {
+    plan.left_out.push_back(std::string("environment background: ") +
+                            (settings.background == Background::Environment ? "no environment" : "not asked for"));
   }
-  if (!any([](const FrameMaterial& m) { return m.vertex_colors; })) leave_out("vertex colours", "no geometry has them");
-  if (plan.textures.empty()) leave_out("textures", "no material reads one");
+  decide(plan.punctual_lights, Feature::PunctualLights, "punctual lights",
+         posed.lights.empty() ? "the scene has none"
+         : lit                ? kOnRequest
+                              : unlit);
+  decide_of_materials(plan.alpha_test, Feature::AlphaTest, "alpha test", "no drawn material has alpha mode MASK");
+  decide_of_materials(plan.blending, Feature::Blending, "blending", "no drawn material has alpha mode BLEND");
+  decide(posed.skinned, Feature::Skins, "skins",
+         asked_out(Feature::Skins) && !scene.skins.empty() ? kOnRequest : "nothing drawn has one");
+  decide(posed.morphed, Feature::MorphTargets, "morph targets",
+         !HasMorphTargets(scene)            ? "the scene has none"
+         : asked_out(Feature::MorphTargets) ? kOnRequest
+                                            : "none of what is drawn has a weight");
+  if (settings.samples == 1) plan.left_out.emplace_back("multisampling: one sample a pixel");
+  if (!settings.omit_unused) UseEverything(settings, plan);
   return plan;
 }
 

@@ -11,11 +11,15 @@
 
 namespace facet {
 
+inline constexpr int kWhiteImage = -1;  // one white texel
+
 // A texture that has to be decoded: one image in one role.
 struct PlannedTexture {
-  int image = -1;
+  int image = kWhiteImage;
   TextureRole role = TextureRole::Data;
   bool mips = false;
+
+  bool operator==(const PlannedTexture&) const = default;
 };
 
 // A material as one kind of drawable uses it.
@@ -37,9 +41,16 @@ struct FramePlan {
   bool punctual_lights = false;
   bool alpha_test = false;
   bool blending = false;
+  bool dark_light = false;     // a light of no intensity shines as well
+  bool every_texture = false;  // decoded even if no visible material reads it
+  FeatureSet uses;             // of the scene; not what is only done to show that it changes nothing
   std::vector<std::string> left_out;  // one line each: "WHAT: WHY"
 };
 
+// The pose that a frame with these settings draws.
+PoseSettings PoseOf(const RenderSettings& settings);
+
+// `posed`: by PoseOf(settings).
 FramePlan MakeFramePlan(const Scene& scene, const PosedScene& posed, const RenderSettings& settings);
 
 }  // namespace facet

@@ -78,6 +78,12 @@ struct BlockRange {
   }
 };
 
+inline void PrefetchRecord(const TriangleRecord& r) {
+  const char* bytes = reinterpret_cast<const char*>(&r);
+  __builtin_prefetch(bytes);
+  __builtin_prefetch(bytes + sizeof r - 1);
+}
+
 // Positions of a block's pixels in sixteenths, in the order of TileBuffers.
 struct BlockPixels {
   alignas(64) std::int32_t x[kBlockPixels];
@@ -150,7 +156,9 @@ HWY_INLINE void VisitCoverage(const TriangleRecord& r, const TileBuffers& tile, 
 }
 
 void RasterOpaqueKernel(const TileTriangles& triangles, TileBuffers& tile) {
+  constexpr std::size_t kAhead = 8;  // records lie scattered in memory
   for (std::size_t t = 0; t < triangles.count; ++t) {
+    if (t + kAhead < triangles.count) PrefetchRecord(*triangles.records[t + kAhead]);
     const Int number(triangles.numbers[t]);
     VisitCoverage<false>(
         *triangles.records[t], tile,
@@ -250,19 +258,26 @@ void WriteFragment(const TriangleRecord& record, std::int32_t number, std::uint1
 }
 
 void VisibleFragments(const TileBuffers& tile, FragmentList& out) {
-  for (int y = 0; y < tile.height; ++y) {
-    for (int x = 0; x < tile.width; ++x) {
-      const std::int32_t* records = tile.record.data() + tile.Index(x, y, 0);
-      std::uint32_t open = (1u << tile.samples) - 1;
-      for (int s = 0; open != 0; ++s) {
-        if ((open >> s & 1) == 0) continue;
-        const std::int32_t number = records[s * kBlockPixels];
-        std::uint32_t same = 0;
-        for (int k = s; k < tile.samples; ++k) same |= std::uint32_t{records[k * kBlockPixels] == number} << k;
-        same &= open;
-        open &= ~same;
-        if (number != kNoRecord) {
-          out.Push(static_cast<std::uint16_t>(y * tile.tile_size + x), number, static_cast<std::uint8_t>(same));
+  constexpr int kSquare = 4;
+  const std::uint32_t all = (1u << tile.samples) - 1;
+  for (int square_y = 0; square_y < tile.height; square_y += kSquare) {
+    for (int square_x = 0; square_x < tile.width; square_x += kSquare) {
+      const int right = std::min(square_x + kSquare, tile.width), bottom = std::min(square_y + kSquare, tile.height);
+      for (int y = square_y; y < bottom; ++y) {
+        const std::int32_t* records = tile.record.data() + tile.Index(square_x, y, 0);
+        const int row = y * tile.tile_size;
+        for (int x = square_x; x < right; ++x, ++records) {
+          for (std::uint32_t open = all; open != 0;) {
+            const int s = __builtin_ctz(open);
+            const std::int32_t number = records[s * kBlockPixels];
+            std::uint32_t same = 1u << s;
+            for (int k = s + 1; k < tile.samples; ++k) same |= std::uint32_t{records[k * kBlockPixels] == number} << k;
+            same &= open;
+            open &= ~same;
+            if (number != kNoRecord) {
+              out.Push(static_cast<std::uint16_t>(row + x), number, static_cast<std::uint8_t>(same));
+            }
+          }
         }
       }
     }

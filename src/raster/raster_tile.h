@@ -34,7 +34,8 @@ void RasterCollect(const TileTriangles& triangles, const TileBuffers& tile, Frag
 void WriteFragment(const TriangleRecord& record, std::int32_t number, std::uint16_t pixel, std::uint8_t samples,
                    TileBuffers& tile);
 
-// The visible (pixel, triangle) pairs, row by row, with the samples at which each is visible.
+// The visible (pixel, triangle) pairs with the samples at which each is visible. By squares of 4 x 4 pixels, row by row
+// and so within each: what is shaded together then lies close together in textures.
 void VisibleFragments(const TileBuffers& tile, FragmentList& out);
 
 }  // namespace facet

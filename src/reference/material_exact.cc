@@ -18,7 +18,8 @@ glm::dvec4 ExactMaterial::Read(int use, const SurfacePoint& point) const {
 }
 
 glm::dvec4 ExactMaterial::BaseColor(const SurfacePoint& point) const {
-  const glm::dvec4 color = glm::dvec4(material_.base_color_factor) * point.color;
+  glm::dvec4 color(material_.base_color_factor);
+  if (vertex_colors_) color *= point.color;
   return Has(kBaseColorTexture) ? color * Read(0, point) : color;
 }
 
@@ -78,6 +79,8 @@ std::vector<ExactMaterial> MakeExactMaterials(const Scene& scene, const FramePla
     ExactMaterial& to = result[m];
     if (planned.material >= 0) to.material_ = scene.materials[std::size_t(planned.material)];
     to.features_ = planned.frame.features;
+    to.material_.alpha_mode = planned.frame.alpha_mode;
+    to.vertex_colors_ = planned.frame.vertex_colors;
     const Material& from = to.material_;
     const TextureRef* refs[5] = {&from.base_color_texture, &from.metallic_roughness_texture, &from.normal_texture,
                                  &from.occlusion_texture, &from.emissive_texture};

@@ -47,6 +47,7 @@ class ExactMaterial {
   glm::dvec3 Normal(const SurfacePoint& point) const;
 
   MaterialFeatures features_ = 0;
+  bool vertex_colors_ = false;
   Material material_;
   Use uses_[5];  // in the order of PlannedMaterial::textures
 };

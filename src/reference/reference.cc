@@ -53,12 +53,10 @@ void CheckSettings(const RenderSettings& settings, const ReferenceSettings& refe
   }
 }
 
-PoseSettings PoseOf(const RenderSettings& settings) {
-  PoseSettings pose;
-  pose.scene = settings.scene;
-  pose.animation = settings.animation;
-  pose.time = settings.time;
-  pose.variant = settings.variant;
+// Whose tangents is a choice of approximation.
+PoseSettings PoseForReference(const RenderSettings& settings) {
+  PoseSettings pose = PoseOf(settings);
+  pose.generate_tangents = false;
   return pose;
 }
 
@@ -68,13 +66,14 @@ class ReferenceScene {
   ReferenceScene(const Scene& scene, const RenderSettings& settings, const ReferenceSettings& reference,
                  std::vector<std::string>& notes)
       : reference_(reference),
-        posed_(Pose(scene, PoseOf(settings))),
+        posed_(Pose(scene, PoseForReference(settings))),
         plan_(MakeFramePlan(scene, posed_, settings)),
         materials_(MakeExactMaterials(scene, plan_, notes)),
         view_(ResolveCamera(settings.camera, scene, posed_, settings.width, settings.height), settings.width,
               settings.height),
         geometry_(view_, posed_, DoubleSided()),
-        punctual_(MakePunctualLights(posed_.lights, view_.eye_world)) {
+        punctual_(plan_.punctual_lights ? MakePunctualLights(posed_.lights, view_.eye_world)
+                                        : std::vector<PunctualLight>()) {
     if (plan_.environment_light || plan_.environment_background) environment_.emplace(settings.environment);
     light_.emplace(ExactLight{punctual_, plan_.environment_light ? &*environment_ : nullptr, AlbedoSurface::Shared(),
                               std::uint32_t(reference.environment_samples)});
@@ -245,8 +244,10 @@ ReferenceFilm RenderBatches(const Scene& scene, const RenderSettings& settings, 
 
 ReferenceFilm RenderReference(const Scene& scene, const RenderSettings& settings, const ReferenceSettings& reference) {
   CheckSettings(settings, reference);
+  RenderSettings used = settings;
+  used.omit_unused = true;
   ReferenceFilm film;
-  RunWithThreads(settings.threads, [&] { film = RenderBatches(scene, settings, reference); });
+  RunWithThreads(used.threads, [&] { film = RenderBatches(scene, used, reference); });
   return film;
 }
 

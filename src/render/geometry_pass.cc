@@ -7,6 +7,7 @@
 #include "clip/assemble.h"
 #include "facet/error.h"
 #include "render/frame_view.h"
+#include "vertex/outside_view.h"
 #include "vertex/transform_vertices.h"
 
 namespace facet {
@@ -30,11 +31,12 @@ const TriangleRecord& FrameGeometry::Record(std::int32_t number) const {
   return chunk.records[n - chunk.record_base];
 }
 
-FrameGeometry RunGeometry(const FrameView& view, const PosedScene& posed, const FramePlan& plan, const TileGrid& grid,
-                          int samples, RenderStats& stats) {
-  FrameGeometry frame;
+void RunGeometry(const FrameView& view, const PosedScene& posed, const FramePlan& plan, const TileGrid& grid,
+                 int samples, FrameGeometry& frame, RenderStats& stats) {
   std::vector<VertexRange> ranges;
   std::uint64_t vertex_count = 0;
+  std::size_t chunk_count = 0;
+  frame.drawables.clear();
   frame.drawables.reserve(posed.drawables.size());
   for (std::size_t d = 0; d < posed.drawables.size(); ++d) {
     FrameDrawable drawable = MakeFrameDrawable(view, posed.drawables[d]);
@@ -42,11 +44,19 @@ FrameGeometry RunGeometry(const FrameView& view, const PosedScene& posed, const 
     drawable.double_sided = plan.materials[std::size_t(drawable.material)].frame.Has(kDoubleSided);
     drawable.vertex_base = static_cast<std::uint32_t>(vertex_count);
     const std::size_t n = drawable.geometry->positions.size();
+    stats.vertices += n;
+    stats.triangles_in += drawable.primitive_count;
+    if (OutsideView(view, drawable, posed.drawables[d].bounds_mesh)) {
+      stats.triangles_clipped += drawable.primitive_count;
+      frame.drawables.push_back(drawable);
+      continue;
+    }
     for (std::size_t b = 0; b < n; b += kVertexGrain) {
       ranges.push_back({static_cast<std::uint32_t>(d), b, std::min(n, b + kVertexGrain)});
     }
     for (std::uint32_t b = 0; b < drawable.primitive_count; b += kChunkPrimitives) {
-      TriangleChunk& chunk = frame.chunks.emplace_back();
+      if (chunk_count == frame.chunks.size()) frame.chunks.emplace_back();
+      TriangleChunk& chunk = frame.chunks[chunk_count++];
       chunk.drawable = static_cast<std::uint32_t>(d);
       chunk.first_primitive = b;
       chunk.primitive_count = std::min(kChunkPrimitives, drawable.primitive_count - b);
@@ -56,33 +66,28 @@ FrameGeometry RunGeometry(const FrameView& view, const PosedScene& posed, const 
       throw Error(ErrorCode::OutOfMemory, "the scene has more than 715,827,882 vertices at once", {},
                   "render it in parts");
     }
-    stats.triangles_in += drawable.primitive_count;
     frame.drawables.push_back(drawable);
   }
   stats.drawables = frame.drawables.size();
-  stats.vertices = vertex_count;
 
-  VertexBuffer vertices;
-  vertices.x_fx8.resize(vertex_count);
-  vertices.y_fx8.resize(vertex_count);
-  vertices.depth.resize(vertex_count);
-  vertices.outcode.resize(vertex_count);
+  frame.chunks.resize(chunk_count);
+  frame.vertices.resize(vertex_count);
   ParallelFor(ranges.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      TransformVertices(view, frame.drawables[ranges[i].drawable], ranges[i].begin, ranges[i].end, vertices);
+      TransformVertices(view, frame.drawables[ranges[i].drawable], ranges[i].begin, ranges[i].end, frame.vertices);
     }
   });
   ParallelFor(frame.chunks.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       TriangleChunk& chunk = frame.chunks[i];
-      AssembleChunk(view, frame.drawables[chunk.drawable], vertices, samples, chunk);
-      chunk.records.shrink_to_fit();
+      AssembleChunk(view, frame.drawables[chunk.drawable], frame.vertices, samples, chunk);
       BinChunk(grid, chunk);
     }
   });
 
   frame.material_visible.assign(plan.materials.size(), false);
   for (auto* lists : {&frame.lists.opaque, &frame.lists.masked, &frame.lists.blended}) {
+    for (std::vector<TileRun>& list : *lists) list.clear();
     lists->resize(std::size_t(grid.Count()));
   }
   std::uint64_t record_count = 0;
@@ -106,6 +111,12 @@ FrameGeometry RunGeometry(const FrameView& view, const PosedScene& posed, const 
   if (record_count > INT32_MAX) {
     throw Error(ErrorCode::OutOfMemory, "the scene has more than 2^31 triangles on the screen", {}, "render it in parts");
   }
+}
+
+FrameGeometry RunGeometry(const FrameView& view, const PosedScene& posed, const FramePlan& plan, const TileGrid& grid,
+                          int samples, RenderStats& stats) {
+  FrameGeometry frame;
+  RunGeometry(view, posed, plan, grid, samples, frame, stats);
   return frame;
 }
 

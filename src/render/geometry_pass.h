@@ -11,14 +11,20 @@
 
 namespace facet {
 
+// Kept from one frame to the next, its arrays need not be made anew.
 struct FrameGeometry {
   std::vector<FrameDrawable> drawables;
   std::vector<TriangleChunk> chunks;
   TileLists lists;
   std::vector<bool> material_visible;  // of FramePlan::materials: some triangle of it reached a tile
+  VertexBuffer vertices;
 
   const TriangleRecord& Record(std::int32_t number) const;
 };
+
+// Fills `frame`; whatever it held is lost. `posed` must outlive it.
+void RunGeometry(const FrameView& view, const PosedScene& posed, const FramePlan& plan, const TileGrid& grid,
+                 int samples, FrameGeometry& frame, RenderStats& stats);
 
 FrameGeometry RunGeometry(const FrameView& view, const PosedScene& posed, const FramePlan& plan, const TileGrid& grid,
                           int samples, RenderStats& stats);

@@ -3,9 +3,12 @@
 #include <chrono>
 #include <cmath>
 #include <new>
+#include <optional>
 
+#include "base/pages.h"
 #include "base/parallel.h"
 #include "facet/error.h"
+#include "facet/shader.h"
 #include "facet/shader/dispatch.h"
 #include "frame/constants.h"
 #include "light/studio.h"
@@ -15,6 +18,7 @@
 #include "render/texture_pass.h"
 #include "render/tile_pass.h"
 #include "scene/camera.h"
+#include "shade/shade_fragments.h"
 
 namespace facet {
 namespace {
@@ -71,78 +75,144 @@ void CheckSettings(const RenderSettings& s) {
   }
 }
 
-std::shared_ptr<const EnvironmentMap> PrepareEnvironment(const FramePlan& plan, const RenderSettings& settings,
-                                                         RenderStats& stats) {
-  if (!plan.environment_light && !plan.environment_background) return nullptr;
-  const EnvironmentOptions options{plan.environment_background, settings.environment_size, settings.environment_samples,
-                                   settings.irradiance};
-  if (settings.environment.kind == EnvironmentSettings::Kind::Studio) return StudioEnvironment(options);
-  auto map = PrefilterEnvironment(*settings.environment.image, options);
-  if (map->repaired_values > 0) {
-    stats.warnings.push_back("environment: " + std::to_string(map->repaired_values) +
-                             " values were not finite, negative or too large, and were replaced");
+std::size_t BytesOf(const std::deque<Primitive>& primitives) {
+  std::size_t bytes = 0;
+  const auto add = [&bytes](const auto& values) { bytes += values.size() * sizeof(values[0]); };
+  for (const Primitive& p : primitives) {
+    add(p.positions), add(p.normals), add(p.tangents), add(p.colors), add(p.indices);
+    for (const auto& set : p.tex_coords) add(set);
   }
-  return map;
+  return bytes;
 }
 
-Film RenderPinned(const Scene& scene, const RenderSettings& settings, RenderStats& stats) {
-  Stopwatch total, stage;
-  PoseSettings pose;
-  pose.scene = settings.scene;
-  pose.animation = settings.animation;
-  pose.time = settings.time;
-  pose.variant = settings.variant;
-  pose.generate_tangents = settings.tangents == TangentSource::Generated;
-  const PosedScene posed = Pose(scene, pose);
-  FramePlan plan = MakeFramePlan(scene, posed, settings);
-  stats.left_out = plan.left_out;
-  const FrameView view = MakeFrameView(ResolveCamera(settings.camera, scene, posed, settings.width, settings.height),
-                                       settings.width, settings.height);
-  stats.pose_seconds = stage.Lap();
+// A shader, or the material model (null), where the environment is to be seen behind the scene and not to light it.
+class WithoutEnvironment final : public FragmentShader {
+ public:
+  explicit WithoutEnvironment(const LightingData& lighting, const FragmentShader* shader)
+      : lighting_(lighting), shader_(shader) {
+    lighting_.environment = nullptr;
+  }
+  void Shade(const ShadeTask& task) const override {
+    ShadeTask dark = task;
+    dark.lighting = &lighting_;
+    shader_ != nullptr ? shader_->Shade(dark) : ShadeMetallicRoughnessFragments(dark);
+  }
 
-  const TileGrid grid = MakeTileGrid(settings.width, settings.height, settings.tile_size);
-  const FrameGeometry geometry = RunGeometry(view, posed, plan, grid, settings.samples, stats);
-  stats.geometry_seconds = stage.Lap();
-
-  const FrameTextures textures = DecodeTextures(scene, geometry.material_visible, settings.texels, plan, stats);
-  stats.texture_seconds = stage.Lap();
-
-  const auto environment = PrepareEnvironment(plan, settings, stats);
-  const std::vector<PunctualLight> lights =
-      plan.punctual_lights ? MakePunctualLights(posed.lights, view.eye_world) : std::vector<PunctualLight>();
-  const LightingData lighting =
-      MakeLightingData(lights, environment.get(), settings.environment.rotation, settings.environment.intensity);
-  stats.environment_seconds = stage.Lap();
-
-  Film film;
-  film.width = settings.width;
-  film.height = settings.height;
-  film.pixels.resize(std::size_t(film.width) * std::size_t(film.height));
-  RunTiles({view, plan, geometry, grid, lighting, settings}, film, stats);
-  stats.raster_seconds = stage.Lap();
-  stats.total_seconds = total.Lap();
-  if (settings.progress) settings.progress(1.0);
-  return film;
-}
+ private:
+  LightingData lighting_;
+  const FragmentShader* shader_;
+};
 
 }  // namespace
 
-Film Render(const Scene& scene, const RenderSettings& settings, RenderStats* stats) {
+// What frames share. Each part is made anew when the settings that it was made for are others.
+class Renderer::Frames {
+ public:
+  explicit Frames(const Scene& scene) : scene_(scene) {}
+
+  void Render(const RenderSettings& settings, Film& film, RenderStats& stats) {
+    Stopwatch total, stage;
+    const PosedScene& posed = Posed(PoseOf(settings));
+    FramePlan plan = MakeFramePlan(scene_, posed, settings);
+    stats.left_out = plan.left_out;
+    stats.pose_bytes = BytesOf(posed.owned);
+    const FrameView view = MakeFrameView(ResolveCamera(settings.camera, scene_, posed, settings.width, settings.height),
+                                         settings.width, settings.height);
+    stats.pose_seconds = stage.Lap();
+
+    const TileGrid grid = MakeTileGrid(settings.width, settings.height, settings.tile_size);
+    RunGeometry(view, posed, plan, grid, settings.samples, geometry_, stats);
+    stats.geometry_seconds = stage.Lap();
+
+    DecodeTextures(scene_, geometry_.material_visible, settings.texels, plan, textures_, stats);
+    stats.texture_seconds = stage.Lap();
+
+    const EnvironmentMap* environment = Environment(plan, settings, stats);
+    std::vector<PunctualLight> lights;
+    if (plan.punctual_lights) lights = MakePunctualLights(posed.lights, view.eye_world);
+    if (plan.dark_light) lights.emplace_back().type = LightType::Directional;
+    const LightingData lighting =
+        MakeLightingData(lights, environment, settings.environment.rotation, settings.environment.intensity);
+    stats.environment_seconds = stage.Lap();
+
+    film.width = settings.width;
+    film.height = settings.height;
+    const std::size_t pixel_count = std::size_t(film.width) * std::size_t(film.height);
+    film.pixels.reserve(pixel_count);
+    PreferHugePages(film.pixels.data(), pixel_count * sizeof(glm::vec4));
+    film.pixels.resize(pixel_count);
+    const WithoutEnvironment unlit_by_background(lighting, settings.shader);
+    RenderSettings shaded = settings;
+    if (environment != nullptr && !plan.environment_light) shaded.shader = &unlit_by_background;
+    RunTiles({view, plan, geometry_, grid, lighting, shaded}, film, stats);
+    stats.raster_seconds = stage.Lap();
+    stats.total_seconds = total.Lap();
+    if (settings.progress) settings.progress(1.0);
+  }
+
+ private:
+  const PosedScene& Posed(const PoseSettings& pose) {
+    if (!posed_ || pose != pose_) {
+      posed_.reset();
+      posed_ = Pose(scene_, pose);
+      pose_ = pose;
+    }
+    return *posed_;
+  }
+
+  const EnvironmentMap* Environment(const FramePlan& plan, const RenderSettings& settings, RenderStats& stats) {
+    if (!plan.environment_light && !plan.environment_background) return nullptr;
+    const EnvironmentOptions options{plan.environment_background, settings.environment_size,
+                                     settings.environment_samples, settings.irradiance};
+    const auto picture = settings.environment.kind == EnvironmentSettings::Kind::Image ? settings.environment.image
+                                                                                       : nullptr;  // the studio
+    if (environment_ == nullptr || options != environment_options_ || picture != environment_picture_) {
+      environment_ = picture != nullptr ? PrefilterEnvironment(*picture, options) : StudioEnvironment(options);
+      environment_options_ = options;
+      environment_picture_ = picture;
+    }
+    stats.environment_bytes = (environment_->texels.size() + environment_->picture.size()) * sizeof(float);
+    stats.environment_size = environment_->levels[0].size;
+    if (environment_->repaired_values > 0) {
+      stats.warnings.push_back("environment: " + std::to_string(environment_->repaired_values) +
+                               " values were not finite, negative or too large, and were replaced");
+    }
+    return environment_.get();
+  }
+
+  const Scene& scene_;
+  PoseSettings pose_;
+  std::optional<PosedScene> posed_;
+  FrameGeometry geometry_;
+  FrameTextures textures_;
+  EnvironmentOptions environment_options_;
+  std::shared_ptr<const Image> environment_picture_;  // held, so that no other picture can take its place in memory
+  std::shared_ptr<const EnvironmentMap> environment_;
+};
+
+Renderer::Renderer(const Scene& scene) : frames_(std::make_unique<Frames>(scene)) {}
+Renderer::~Renderer() = default;
+
+void Renderer::Render(const RenderSettings& settings, Film& film, RenderStats* stats) {
   CheckSettings(settings);
   RenderStats unused;
   RenderStats& s = stats != nullptr ? *stats : unused;
   s = RenderStats();
   s.target = TargetName(ActiveTarget());
-  Film film;
   try {
     RunWithThreads(settings.threads, [&] {
       s.threads = CurrentThreadCount();
-      film = RenderPinned(scene, settings, s);
+      frames_->Render(settings, film, s);
     });
   } catch (const std::bad_alloc&) {
     throw Error(ErrorCode::OutOfMemory, "the machine has too little memory for this picture of this scene", {},
                 "render it smaller, or with fewer threads");
   }
+}
+
+Film Render(const Scene& scene, const RenderSettings& settings, RenderStats* stats) {
+  Film film;
+  Renderer(scene).Render(settings, film, stats);
   return film;
 }
 

@@ -2,18 +2,30 @@
 
 #include <algorithm>
 #include <exception>
+#include <map>
+#include <utility>
 
 #include "base/parallel.h"
 #include "facet/error.h"
+#include "texture/build_texture.h"
 
 namespace facet {
 
-FrameTextures DecodeTextures(const Scene& scene, const std::vector<bool>& material_visible, TexelBits texels,
-                             FramePlan& plan, RenderStats& stats) {
-  FrameTextures textures(plan.textures.size());
+namespace {
+
+Image WhitePixel() { return {1, 1, 4, ChannelType::U8, Encoding::Srgb, std::vector<std::byte>(4, std::byte{255})}; }
+
+}  // namespace
+
+void DecodeTextures(const Scene& scene, const std::vector<bool>& material_visible, TexelBits texels, FramePlan& plan,
+                    FrameTextures& textures, RenderStats& stats) {
+  if (textures.planned != plan.textures || textures.texels != texels) {
+    textures = {plan.textures, texels, {}};
+    textures.entries.resize(plan.textures.size());
+  }
   std::vector<bool> needed(plan.textures.size(), false);
   for (std::size_t m = 0; m < plan.materials.size(); ++m) {
-    if (!material_visible[m]) continue;
+    if (!material_visible[m] && !plan.every_texture) continue;
     for (const int t : plan.materials[m].textures) {
       if (t >= 0) needed[std::size_t(t)] = true;
     }
@@ -21,39 +33,69 @@ FrameTextures DecodeTextures(const Scene& scene, const std::vector<bool>& materi
   // An image that is read in two roles is decoded once.
   std::vector<int> images;
   for (std::size_t t = 0; t < needed.size(); ++t) {
+    FrameTextures::Entry& entry = textures.entries[t];
+    if (!needed[t] || entry.data != nullptr || !entry.problem.empty()) continue;
     const int image = plan.textures[t].image;
-    if (needed[t] && std::find(images.begin(), images.end(), image) == images.end()) images.push_back(image);
+    if (image == kWhiteImage) {
+      entry.data = std::make_unique<const TextureData>(BuildTexture(WhitePixel(), plan.textures[t].role, false, texels));
+      continue;
+    }
+    if (std::find(images.begin(), images.end(), image) == images.end()) images.push_back(image);
   }
-  std::vector<std::string> problems(images.size());
   std::vector<std::exception_ptr> failures(images.size());  // the first in the file's order is passed on
+  // The largest first: what comes last should not leave the other threads idle for long.
+  std::vector<std::pair<std::size_t, std::size_t>> order;  // bytes of a file, index in `images`
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    const auto header = scene.images[std::size_t(images[i])].source->Header();
+    order.emplace_back(header ? header->bytes : 0, i);
+  }
+  std::sort(order.rbegin(), order.rend());
   ParallelFor(images.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      try {
-        const Image image = scene.images[std::size_t(images[i])].source->Decode();
+    for (std::size_t piece = begin; piece < end; ++piece) {
+      const std::size_t i = order[piece].second;
+      const auto for_each_role = [&](auto&& body) {
         for (std::size_t t = 0; t < needed.size(); ++t) {
-          const PlannedTexture& planned = plan.textures[t];
-          if (!needed[t] || planned.image != images[i]) continue;
-          textures[t] = std::make_unique<const TextureData>(BuildTexture(image, planned.role, planned.mips, texels));
+          if (needed[t] && plan.textures[t].image == images[i]) body(plan.textures[t], textures.entries[t]);
         }
+      };
+      const ImageSource& source = *scene.images[std::size_t(images[i])].source;
+      try {
+        std::map<FrameTextures::Entry*, TextureBuilder> builders;
+        source.DecodeRows([&](const Image& rows, int height) {
+          for_each_role([&](const PlannedTexture& planned, FrameTextures::Entry& entry) {
+            builders.try_emplace(&entry, rows, height, planned.role, planned.mips, texels).first->second.Add(rows);
+          });
+        });
+        for (auto& [entry, builder] : builders) entry->data = std::make_unique<const TextureData>(builder.Finish());
       } catch (const Error& error) {
         if (error.code() != ErrorCode::InvalidInput && error.code() != ErrorCode::NotFound) {
           failures[i] = std::current_exception();
           continue;
         }
-        const std::string name = scene.images[std::size_t(images[i])].source->Name();
-        problems[i] = error.where().empty() ? name + ": " + error.what() : error.what();
+        const std::string problem = error.where().empty() ? source.Name() + ": " + error.what() : error.what();
+        for_each_role([&](const PlannedTexture&, FrameTextures::Entry& entry) { entry.problem = problem; });
       }
     }
   });
   for (const std::exception_ptr& failure : failures) {
     if (failure != nullptr) std::rethrow_exception(failure);
   }
-  for (const std::string& problem : problems) {
-    if (!problem.empty()) stats.warnings.push_back(problem + " (drawn without this texture)");
-  }
-  stats.images_decoded = static_cast<std::uint64_t>(std::count(problems.begin(), problems.end(), std::string()));
-  for (const auto& texture : textures) {
-    if (texture != nullptr) stats.texture_bytes += texture->Bytes();
+  std::vector<int> warned;  // once an image
+  stats.images_decoded = images.size();
+  for (std::size_t t = 0; t < needed.size(); ++t) {
+    const FrameTextures::Entry& entry = textures.entries[t];
+    if (entry.data != nullptr) {
+      const TextureData& data = *entry.data;
+      stats.texture_bytes += data.Bytes();
+      stats.textures.push_back({plan.textures[t].image, plan.textures[t].role == TextureRole::Color, data.level_width[0],
+                                data.level_height[0], data.levels, data.wide ? 16 : 8, data.Bytes()});
+    }
+    if (!needed[t] || entry.problem.empty()) continue;
+    const int image = plan.textures[t].image;
+    if (std::find(warned.begin(), warned.end(), image) != warned.end()) continue;
+    warned.push_back(image);
+    stats.warnings.push_back(entry.problem + " (drawn without this texture)");
+    if (std::find(images.begin(), images.end(), image) != images.end()) --stats.images_decoded;
   }
 
   constexpr MaterialFeature kFeatures[5] = {kBaseColorTexture, kMetallicRoughnessTexture, kNormalTexture,
@@ -64,11 +106,10 @@ FrameTextures DecodeTextures(const Scene& scene, const std::vector<bool>& materi
                                    &f.occlusion_texture, &f.emissive_texture};
     for (int i = 0; i < 5; ++i) {
       if (material.textures[i] < 0) continue;
-      slots[i]->data = textures[std::size_t(material.textures[i])].get();
+      slots[i]->data = textures.entries[std::size_t(material.textures[i])].data.get();
       if (slots[i]->data == nullptr) f.features &= ~std::uint32_t{kFeatures[i]};
     }
   }
-  return textures;
 }
 
 }  // namespace facet

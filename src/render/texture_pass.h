@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "facet/render.h"
@@ -10,13 +11,21 @@
 
 namespace facet {
 
-// One entry per FramePlan::textures; null where no visible material needs it or its image could not be decoded (a
-// warning says so, and the materials do without it).
-using FrameTextures = std::vector<std::unique_ptr<const TextureData>>;
+// What was decoded for one plan; kept from one frame to the next, nothing is decoded twice.
+struct FrameTextures {
+  struct Entry {
+    std::unique_ptr<const TextureData> data;  // null: no visible material needed it yet, or it could not be decoded
+    std::string problem;                      // why it could not be decoded
+  };
+  std::vector<PlannedTexture> planned;  // equal to FramePlan::textures
+  TexelBits texels = TexelBits::Mixed;
+  std::vector<Entry> entries;  // as many
+};
 
-// Also fills the texture slots of the plan's materials. Throws Error(MissingModule) where an image needs a module that
-// is not installed, Error(OutOfMemory) for images beyond the limits.
-FrameTextures DecodeTextures(const Scene& scene, const std::vector<bool>& material_visible, TexelBits texels,
-                             FramePlan& plan, RenderStats& stats);
+// Decodes what visible materials read and `textures` lacks, and fills the texture slots of the plan's materials. An image
+// that cannot be decoded gives a warning, and the materials do without it. Throws Error(MissingModule) where an image
+// needs a module that is not installed, Error(OutOfMemory) for images beyond the limits.
+void DecodeTextures(const Scene& scene, const std::vector<bool>& material_visible, TexelBits texels, FramePlan& plan,
+                    FrameTextures& textures, RenderStats& stats);
 
 }  // namespace facet

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <utility>
@@ -9,8 +11,10 @@
 #include "base/parallel.h"
 #include "blend/composite.h"
 #include "facet/shader.h"
+#include "light/cull_lights.h"
 #include "raster/raster_tile.h"
 #include "render/frame_view.h"
+#include "render/view_directions.h"
 #include "resolve/resolve_tile.h"
 #include "shade/shade_fragments.h"
 #include "shade/triangle_setup.h"
@@ -48,7 +52,8 @@ class ShadingPositions {
 // Everything a thread needs while it works on one tile; kept for the next.
 class TileWorker final : public RecordTable {
  public:
-  TileWorker(const TilePassInput& input, const ShadingPositions& positions) : in_(input), positions_(positions) {}
+  TileWorker(const TilePassInput& input, const ShadingPositions& positions, const ViewDirections& directions)
+      : in_(input), positions_(positions), directions_(directions), lighting_(input.lighting) {}
 
   void Run(int index, Film& film, TileCounts& counts) {
     counts_ = &counts;
@@ -59,37 +64,34 @@ class TileWorker final : public RecordTable {
     tile_.height = std::min(size, in_.grid.height - tile_.y0);
     tile_.tile_size = size;
     tile_.samples = in_.settings.samples;
-    setup_count_ = 0;
+    records_.clear();
+    setup_of_record_.clear();
     opaque_.list.Clear();
     blended_.list.Clear();
 
     const TileLists& lists = in_.geometry.lists;
     const std::size_t t = std::size_t(index);
     const bool nothing = lists.opaque[t].empty() && lists.masked[t].empty() && lists.blended[t].empty();
-    const std::vector<glm::vec4>* background = nullptr;
-    if (in_.plan.environment_background) {
-      FillBackground();
-      background = &background_;
-    }
+    const bool background = in_.plan.environment_background;
     if (nothing) {
       pixels_.assign(std::size_t(size) * std::size_t(size), glm::vec4(0.0f));
-      if (background != nullptr) pixels_ = background_;
     } else {
       ClearTile(tile_);
-      Gather(lists.opaque[t]);
-      RasterOpaque(Triangles(), tile_);
+      RasterOpaque(Gather(lists.opaque[t]), tile_);
       if (!lists.masked[t].empty()) DrawMasked(lists.masked[t]);
       VisibleFragments(tile_, opaque_.list);
       Shade(opaque_);
       counts.shaded += opaque_.list.Size();
-      ResolveOpaque(tile_, opaque_, background, pixels_);
-      if (!lists.blended[t].empty()) {
-        Gather(lists.blended[t]);
-        RasterCollect(Triangles(), tile_, blended_.list, CollectDepth::NearerOrEqual);
-        Shade(blended_);
-        counts.blended += blended_.list.Size();
-        compositor_.Run(tile_, opaque_, blended_, *this, background, pixels_);
-      }
+      ResolveOpaque(tile_, opaque_, pixels_);
+    }
+    if (background) LayUnder(pixels_);
+    if (!lists.blended[t].empty()) {
+      RasterCollect(Gather(lists.blended[t]), tile_, blended_.list, CollectDepth::NearerOrEqual);
+      Shade(blended_);
+      counts.blended += blended_.list.Size();
+      background_.assign(pixels_.size(), glm::vec4(0.0f));
+      if (background) LayUnder(background_);
+      compositor_.Run(tile_, opaque_, blended_, *this, background_, pixels_);
     }
     for (int y = 0; y < tile_.height; ++y) {
       const glm::vec4* row = pixels_.data() + std::size_t(y) * std::size_t(size);
@@ -99,21 +101,24 @@ class TileWorker final : public RecordTable {
     }
   }
 
-  const TriangleRecord& Record(std::int32_t number) const override { return in_.geometry.Record(number); }
+  const TriangleRecord& Record(std::int32_t number) const override { return *records_[std::size_t(number)]; }
 
  private:
-  TileTriangles Triangles() const { return {records_.data(), numbers_.data(), records_.size()}; }
-
-  void Gather(const std::vector<TileRun>& runs) {
-    records_.clear();
-    numbers_.clear();
+  // Appends to records_; their places there are the numbers by which the tile knows them.
+  TileTriangles Gather(const std::vector<TileRun>& runs) {
+    const std::size_t before = records_.size();
+    std::size_t count = before;
+    for (const TileRun& run : runs) count += run.end - run.begin;
+    records_.resize(count);
+    setup_of_record_.resize(count, {0, 0});
+    const TriangleRecord** out = records_.data() + before;
     for (const TileRun& run : runs) {
       const TriangleChunk& chunk = in_.geometry.chunks[run.chunk];
-      for (std::uint32_t e = run.begin; e < run.end; ++e) {
-        records_.push_back(&chunk.records[chunk.entries[e]]);
-        numbers_.push_back(static_cast<std::int32_t>(chunk.record_base + chunk.entries[e]));
-      }
+      const TriangleRecord* records = chunk.records.data();
+      for (std::uint32_t e = run.begin; e < run.end; ++e) *out++ = records + chunk.entries[e];
     }
+    for (std::size_t i = numbers_.size(); i < count; ++i) numbers_.push_back(static_cast<std::int32_t>(i));
+    return {records_.data() + before, numbers_.data() + before, count - before};
   }
 
   // Alpha-tested triangles, in batches: their fragments are collected against the depth of the opaque ones, their alpha
@@ -129,9 +134,9 @@ class TileWorker final : public RecordTable {
       FrameMaterial m = in_.plan.materials[std::size_t(material)].frame;
       m.features &= ~std::uint32_t{kLit | kNormalTexture};  // alpha needs neither place nor direction
       for (std::uint32_t first = run.begin; first < run.end; first += kBatch) {
-        Gather({{run.chunk, first, std::min<std::uint32_t>(run.end, first + kBatch)}});
         masked_.list.Clear();
-        RasterCollect(Triangles(), behind_masked_, masked_.list);
+        RasterCollect(Gather({{run.chunk, first, std::min<std::uint32_t>(run.end, first + kBatch)}}), behind_masked_,
+                      masked_.list);
         const std::size_t n = masked_.list.Size();
         masked_.Resize();
         batch_.clear();
@@ -148,8 +153,9 @@ class TileWorker final : public RecordTable {
 
   // Shades all fragments of a list, material by material.
   void Shade(ShadedFragments& fragments) {
-    fragments.Resize();
     const std::size_t n = fragments.list.Size();
+    fragments.Resize();
+    ChooseLights(fragments.list);
     by_material_.resize(n);
     std::int32_t last_number = kNoRecord;
     std::uint32_t last_material = 0;
@@ -171,6 +177,34 @@ class TileWorker final : public RecordTable {
     }
   }
 
+  // Those lights that reach the tile's fragments: all where there are few, or no perspective to bound the fragments with.
+  void ChooseLights(const FragmentList& list) {
+    constexpr int kFew = 4;
+    constexpr double kBorder = 2.0;  // pixels: lines and points are wider than the places that they are lit at
+    lighting_ = in_.lighting;
+    if (in_.lighting.light_count <= kFew || !in_.view.perspective) return;
+    float nearest = 0.0f, farthest = std::numeric_limits<float>::infinity();  // depth is 1 / distance
+    std::int32_t last_number = kNoRecord;
+    for (std::size_t i = 0; i < list.Size(); ++i) {
+      if (list.record[i] == last_number) continue;
+      last_number = list.record[i];
+      nearest = std::max(nearest, Record(last_number).depth_max);
+      farthest = std::min(farthest, Record(last_number).depth_min);
+    }
+    glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-low);
+    for (const double distance : {1.0 / nearest, 1.0 / farthest}) {
+      for (const int corner : {0, 1, 2, 3}) {
+        const double x = tile_.x0 + (corner & 1 ? tile_.width + kBorder : -kBorder);
+        const double y = tile_.y0 + (corner >> 1 ? tile_.height + kBorder : -kBorder);
+        const glm::dvec3 p = distance * DirectionThrough(in_.view, x, y);
+        low = glm::min(low, p), high = glm::max(high, p);
+      }
+    }
+    LightsReaching(in_.lighting, low, high, reaching_);
+    lighting_.lights = reaching_.data();
+    lighting_.light_count = static_cast<int>(reaching_.size());
+  }
+
   // Shades the fragments that batch_ names.
   void ShadeBatch(const FrameMaterial& material, ShadedFragments& fragments, bool alpha_only) {
     const std::size_t n = batch_.size();
@@ -178,19 +212,31 @@ class TileWorker final : public RecordTable {
     if (n == 0) return;
     setup_of_.resize(padded);
     for (auto* v : {&x_, &y_, &red_, &green_, &blue_, &alpha_}) v->resize(padded);
+    const int tile_shift = std::countr_zero(static_cast<unsigned>(tile_.tile_size));
     const int anchor_x = tile_.x0 & ~(kAnchorSize - 1), anchor_y = tile_.y0 & ~(kAnchorSize - 1);
     const FragmentList& list = fragments.list;
     std::int32_t last_number = kNoRecord, last_setup = 0;
-    ResetSetups(n);
+    ++batch_number_;
+    setup_count_ = 0;
+    constexpr std::size_t kAhead = 8;  // fragments
+    const auto ahead = [&](std::size_t i, auto prefetch) {
+      if (i >= n) return;
+      const std::int32_t number = list.record[batch_[i]];
+      if (number == list.record[batch_[i - 1]]) return;
+      const TriangleRecord& record = Record(number);
+      prefetch(in_.geometry.drawables[record.drawable], record);
+    };
     for (std::size_t i = 0; i < padded; ++i) {
+      ahead(i + 2 * kAhead, PrefetchIndices);
+      ahead(i + kAhead, PrefetchVertices);
       const std::size_t f = batch_[std::min(i, n - 1)];
       if (list.record[f] != last_number) {
         last_number = list.record[f];
         last_setup = SetupFor(material, last_number, anchor_x, anchor_y);
       }
       setup_of_[i] = last_setup;
-      const int px = tile_.x0 - anchor_x + list.pixel[f] % tile_.tile_size;
-      const int py = tile_.y0 - anchor_y + list.pixel[f] / tile_.tile_size;
+      const int px = tile_.x0 - anchor_x + (list.pixel[f] & (tile_.tile_size - 1));
+      const int py = tile_.y0 - anchor_y + (list.pixel[f] >> tile_shift);
       x_[i] = static_cast<float>(px) + positions_.X(list.samples[f]);
       y_[i] = static_cast<float>(py) + positions_.Y(list.samples[f]);
     }
@@ -201,7 +247,7 @@ class TileWorker final : public RecordTable {
     task.count = n;
     task.setups = setups_.data();
     task.material = &material;
-    task.lighting = &in_.lighting;
+    task.lighting = &lighting_;
     task.orthographic = !in_.view.perspective;
     const glm::dvec3 toward_eye = glm::dvec3(0.0, 0.0, 1.0) * in_.view.camera_from_world;
     for (int i = 0; i < 3; ++i) task.view_direction[i] = static_cast<float>(toward_eye[i]);
@@ -225,50 +271,43 @@ class TileWorker final : public RecordTable {
     }
   }
 
-  // --- Setups: one per triangle and batch, found again through a small hash table -------------------------------------
-
-  void ResetSetups(std::size_t fragment_count) {
-    std::size_t capacity = 64;
-    while (capacity < 2 * fragment_count) capacity *= 2;
-    table_.assign(capacity, {kNoRecord, 0});
-    setup_count_ = 0;
-  }
-
+  // One per triangle and batch.
   std::int32_t SetupFor(const FrameMaterial& material, std::int32_t number, int anchor_x, int anchor_y) {
-    const std::size_t mask = table_.size() - 1;
-    std::size_t slot = (static_cast<std::uint32_t>(number) * 2654435761u) & mask;
-    while (table_[slot].number != kNoRecord) {
-      if (table_[slot].number == number) return table_[slot].setup;
-      slot = (slot + 1) & mask;
+    SetupOfRecord& known = setup_of_record_[std::size_t(number)];
+    if (known.batch != batch_number_) {
+      known = {batch_number_, static_cast<std::int32_t>(setup_count_++)};
+      setups_.resize(std::max(setups_.size(), setup_count_ * SetupLayout::kStride));
+      const TriangleRecord& record = Record(number);
+      SetUpTriangle(in_.view, in_.geometry.drawables[record.drawable], material, record, anchor_x, anchor_y,
+                    setups_.data() + std::size_t(known.setup) * SetupLayout::kStride);
     }
-    const auto setup = static_cast<std::int32_t>(setup_count_++);
-    table_[slot] = {number, setup};
-    setups_.resize(std::max(setups_.size(), setup_count_ * SetupLayout::kStride));
-    const TriangleRecord& record = Record(number);
-    SetUpTriangle(in_.view, in_.geometry.drawables[record.drawable], material, record, anchor_x, anchor_y,
-                  setups_.data() + std::size_t(setup) * SetupLayout::kStride);
-    return setup;
+    return known.setup;
   }
 
-  void FillBackground() {
-    const std::size_t n = std::size_t(tile_.tile_size) * std::size_t(tile_.tile_size);
-    for (auto* v : {&x_, &y_, &alpha_, &red_, &green_, &blue_}) v->resize(n);
-    for (std::size_t i = 0; i < n; ++i) {
-      const int x = tile_.x0 + static_cast<int>(i) % tile_.tile_size, y = tile_.y0 + static_cast<int>(i) / tile_.tile_size;
-      const glm::dvec3 d = DirectionThrough(in_.view, x + 0.5, y + 0.5);
-      x_[i] = static_cast<float>(d.x), y_[i] = static_cast<float>(d.y), alpha_[i] = static_cast<float>(d.z);
+  // The environment, where pixels are not wholly covered.
+  void LayUnder(std::vector<glm::vec4>& pixels) {
+    BackgroundTask task;
+    for (int c = 0; c < 3; ++c) {
+      task.column[c] = directions_.column[c].data() + tile_.x0;
+      task.whole[c] = directions_.whole[c];
     }
-    ShadeBackground({x_.data(), y_.data(), alpha_.data(), n, &in_.lighting, red_.data(), green_.data(), blue_.data()});
-    background_.resize(n);
-    for (std::size_t i = 0; i < n; ++i) background_[i] = glm::vec4(red_[i], green_[i], blue_[i], 1.0f);
+    task.width = tile_.width;
+    task.lighting = &in_.lighting;
+    for (int y = 0; y < tile_.height; ++y) {
+      for (int c = 0; c < 3; ++c) task.row[c] = directions_.row[c][std::size_t(tile_.y0 + y)];
+      task.pixels = &pixels[std::size_t(y) * std::size_t(tile_.tile_size)].x;
+      ShadeBackground(task);
+    }
   }
 
-  struct TableEntry {
-    std::int32_t number, setup;
+  struct SetupOfRecord {
+    std::uint64_t batch;  // in which it was made
+    std::int32_t setup;
   };
 
   const TilePassInput& in_;
   const ShadingPositions& positions_;
+  const ViewDirections& directions_;
   TileCounts* counts_ = nullptr;
   TileBuffers tile_, behind_masked_;
   ShadedFragments opaque_, masked_, blended_;
@@ -277,22 +316,28 @@ class TileWorker final : public RecordTable {
   std::vector<std::int32_t> numbers_;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> by_material_;  // material, fragment
   std::vector<std::uint32_t> batch_;
-  std::vector<TableEntry> table_;
+  std::vector<SetupOfRecord> setup_of_record_;
+  std::uint64_t batch_number_ = 0;
   std::size_t setup_count_ = 0;
   std::vector<float> setups_;
   std::vector<std::int32_t> setup_of_;
   std::vector<float> x_, y_, red_, green_, blue_, alpha_;
   std::vector<glm::vec4> background_, pixels_;
+  std::vector<PunctualLight> reaching_;
+  LightingData lighting_;  // of the tile's fragments
 };
 
 // Workers are lent to tasks, so that there are as many as threads, not as tiles.
 class WorkerPool {
  public:
-  WorkerPool(const TilePassInput& input, const ShadingPositions& positions) : input_(input), positions_(positions) {}
+  explicit WorkerPool(const TilePassInput& input)
+      : input_(input),
+        positions_(input.settings.samples),
+        directions_(input.plan.environment_background ? MakeViewDirections(input.view) : ViewDirections()) {}
 
   std::unique_ptr<TileWorker> Take() {
     const std::lock_guard lock(mutex_);
-    if (idle_.empty()) return std::make_unique<TileWorker>(input_, positions_);
+    if (idle_.empty()) return std::make_unique<TileWorker>(input_, positions_, directions_);
     std::unique_ptr<TileWorker> worker = std::move(idle_.back());
     idle_.pop_back();
     return worker;
@@ -304,7 +349,8 @@ class WorkerPool {
 
  private:
   const TilePassInput& input_;
-  const ShadingPositions& positions_;
+  const ShadingPositions positions_;
+  const ViewDirections directions_;
   std::mutex mutex_;
   std::vector<std::unique_ptr<TileWorker>> idle_;
 };
@@ -312,8 +358,7 @@ class WorkerPool {
 }  // namespace
 
 void RunTiles(const TilePassInput& input, Film& film, RenderStats& stats) {
-  const ShadingPositions positions(input.settings.samples);
-  WorkerPool pool(input, positions);
+  WorkerPool pool(input);
   const std::size_t tile_count = std::size_t(input.grid.Count());
   std::vector<TileCounts> counts(tile_count);
   std::atomic<std::size_t> done{0};

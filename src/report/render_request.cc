@@ -1,5 +1,6 @@
 #include "report/render_request.h"
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <numbers>
@@ -19,6 +20,35 @@ constexpr std::string_view kOutput = "Output", kCamera = "Camera", kScene = "Sce
                            kQuality = "Quality and speed";
 
 using Text = std::string_view;
+
+constexpr std::array<FeatureWord, kFeatureCount> kFeatureWords = {{
+    {Feature::BaseColorTexture, "base-color-texture"},
+    {Feature::MetallicRoughnessTexture, "metallic-roughness-texture"},
+    {Feature::NormalTexture, "normal-texture"},
+    {Feature::Occlusion, "occlusion"},
+    {Feature::Emission, "emission"},
+    {Feature::VertexColors, "vertex-colors"},
+    {Feature::EnvironmentLight, "environment-light"},
+    {Feature::PunctualLights, "punctual-lights"},
+    {Feature::AlphaTest, "alpha-test"},
+    {Feature::Blending, "blending"},
+    {Feature::Skins, "skins"},
+    {Feature::MorphTargets, "morph-targets"},
+}};
+
+// Words with commas between them, or "none".
+FeatureSet ParseFeatures(Text where, Text text) {
+  std::vector<Text> words;
+  for (const FeatureWord& known : kFeatureWords) words.push_back(known.word);
+  FeatureSet features;
+  if (text == "none") return features;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    features.Add(kFeatureWords[std::size_t(ParseChoice(where, text.substr(begin, end - begin), words))].feature);
+    begin = end + 1;
+  }
+  return features;
+}
 
 constexpr std::array kOptions = {
     RequestOption{"size", kOutput, "WxH", "1024x1024", "Pixels, each side 1 to 16384 [1024x1024]",
@@ -73,6 +103,11 @@ constexpr std::array kOptions = {
                   }},
     RequestOption{"variant", kScene, "NAME|INDEX", "", "A material variant of the file [none]",
                   [](RenderRequest& r, Text, Text text) { r.variant = text; }},
+    RequestOption{"without", kScene, "LIST", "none",
+                  "Features to leave out, with commas between them:\nbase-color-texture, metallic-roughness-texture,\n"
+                  "normal-texture, occlusion, emission,\nvertex-colors, environment-light, punctual-lights,\n"
+                  "alpha-test, blending (drawn as opaque), skins,\nmorph-targets [none]",
+                  [](RenderRequest& r, Text where, Text text) { r.settings.without = ParseFeatures(where, text); }},
 
     RequestOption{"environment", kLight, "FILE|none", "studio",
                   "Equirectangular picture that lights the scene\n[a built-in studio]",
@@ -120,12 +155,12 @@ constexpr std::array kOptions = {
                   },
                   "file generated"},
     RequestOption{"environment-size", kQuality, "N", "1024",
-                  "Texels along the environment's sharpest map, 64,\n128, 256, 512 or 1024 [1024]",
+                  "Most texels along the environment's sharpest map,\n64, 128, 256, 512 or 1024 [1024]",
                   [](RenderRequest& r, Text where, Text text) {
                     r.settings.environment_size = 64 << ParseChoice(where, text, {"64", "128", "256", "512", "1024"});
                   },
                   "64 128 256 512 1024"},
-    RequestOption{"environment-samples", kQuality, "N", "48", "Of its narrowest lobe, 6 to 768 [48]",
+    RequestOption{"environment-samples", kQuality, "N", "24", "Of its narrowest lobe, 6 to 768 [24]",
                   [](RenderRequest& r, Text where, Text text) {
                     r.settings.environment_samples = ParseInteger(where, text, 6, 768);
                   },
@@ -165,6 +200,8 @@ CameraChoice PlacedCamera(const RenderRequest& request, const Scene& scene) {
 }
 
 }  // namespace
+
+std::span<const FeatureWord, kFeatureCount> FeatureWords() { return kFeatureWords; }
 
 std::span<const RequestOption> RequestOptions() { return kOptions; }
 

@@ -44,6 +44,13 @@ struct RequestOption {
   std::string_view sweep = {};
 };
 
+// What the option "without" calls a feature.
+struct FeatureWord {
+  Feature feature;
+  std::string_view word;
+};
+std::span<const FeatureWord, kFeatureCount> FeatureWords();
+
 // In the order of the help page.
 std::span<const RequestOption> RequestOptions();
 

@@ -11,9 +11,8 @@ namespace facet {
 // Pixels of a tile, tile_size a row: linear light multiplied by coverage, and coverage.
 using TilePixels = std::vector<glm::vec4>;
 
-// The mean over each pixel's samples of the opaque fragments' colours; samples that nothing covers count as `background`
-// where it is given (tile_size * tile_size entries), else as nothing. Fragments are those of VisibleFragments.
-void ResolveOpaque(const TileBuffers& tile, const ShadedFragments& opaque, const TilePixels* background,
-                   TilePixels& pixels);
+// The mean over each pixel's samples of the opaque fragments' colours; samples that nothing covers count as nothing.
+// Fragments are those of VisibleFragments.
+void ResolveOpaque(const TileBuffers& tile, const ShadedFragments& opaque, TilePixels& pixels);
 
 }  // namespace facet

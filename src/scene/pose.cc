@@ -70,13 +70,13 @@ bool ReadsNormalMap(const Scene& scene, const Material& material) {
   return !material.unlit && ref && scene.textures[std::size_t(ref.texture)].image >= 0;
 }
 
-Shape MakeShape(const Scene& scene, const Primitive& primitive, int material, bool generate_tangents) {
+Shape MakeShape(const Scene& scene, const Primitive& primitive, int material, const PoseSettings& settings) {
   Shape shape;
   shape.primitive = &primitive;
   if (material >= 0 && ClassOf(primitive.topology) == PrimitiveClass::Triangles) {
     const Material& used = scene.materials[std::size_t(material)];
-    shape.needs_tangents = ReadsNormalMap(scene, used) &&
-                           (generate_tangents || primitive.normals.empty() || primitive.tangents.empty());
+    shape.needs_tangents = settings.normal_textures && ReadsNormalMap(scene, used) &&
+                           (settings.generate_tangents || primitive.normals.empty() || primitive.tangents.empty());
     shape.tex_coord = used.normal_texture.tex_coord;
   }
   return shape;
@@ -94,11 +94,11 @@ std::vector<std::size_t> AddShapes(const Scene& scene, int node_index, const Pos
   for (std::size_t p = 0; p < mesh.primitives.size(); ++p) {
     const Primitive& primitive = mesh.primitives[p];
     if (primitive.positions.empty()) continue;
-    Shape shape = MakeShape(scene, primitive, MaterialOf(primitive, settings.variant), settings.generate_tangents);
+    Shape shape = MakeShape(scene, primitive, MaterialOf(primitive, settings.variant), settings);
     shape.where = "mesh " + std::to_string(node.mesh) + ", primitive " + std::to_string(p);
     shape.weights = &plan.nodes.weights[std::size_t(node_index)];
-    shape.morphed = IsMorphed(primitive, *shape.weights);
-    if (node.skin >= 0 && !primitive.joints.empty()) {
+    shape.morphed = settings.morph_targets && IsMorphed(primitive, *shape.weights);
+    if (settings.skins && node.skin >= 0 && !primitive.joints.empty()) {
       if (joints == nullptr) {
         plan.joints.push_back(PlaceJoints(scene.skins[std::size_t(node.skin)], plan.nodes.world_from_node,
                                           plan.nodes.world_from_node[std::size_t(node_index)]));
@@ -224,6 +224,8 @@ PosedScene Pose(const Scene& scene, const PoseSettings& settings) {
   std::vector<std::pair<std::size_t, Primitive*>> copies;
   for (std::size_t i = 0; i < plan.shapes.size(); ++i) {
     geometries[i] = plan.shapes[i].primitive;
+    posed.skinned |= plan.shapes[i].joints != nullptr;
+    posed.morphed |= plan.shapes[i].morphed;
     if (!plan.shapes[i].IsCopy()) continue;
     geometries[i] = &posed.owned.emplace_back();
     copies.emplace_back(i, &posed.owned.back());
@@ -245,6 +247,7 @@ PosedScene Pose(const Scene& scene, const PoseSettings& settings) {
   for (std::size_t i = 0; i < plan.shapes.size(); ++i) {
     for (const std::size_t drawable : drawables_of_shape[i]) {
       plan.drawables[drawable].geometry = geometries[i];
+      plan.drawables[drawable].bounds_mesh = local[i];
       AddPlaced(positions_of(i), local[i], plan.drawables[drawable].world_from_mesh, posed.bounds);
     }
   }

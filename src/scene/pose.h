@@ -15,6 +15,16 @@ struct PoseSettings {
   double time = 0.0;   // seconds, clamped to the keys of each channel
   int variant = -1;    // -1: none
   bool generate_tangents = false;  // also where the geometry has some
+  // False: as if the scene had none.
+  bool normal_textures = true, skins = true, morph_targets = true;
+
+  bool operator==(const PoseSettings&) const = default;
+};
+
+// A box around vertices. `empty` when there is none.
+struct Bounds {
+  glm::dvec3 low{0.0}, high{0.0};
+  bool empty = true;
 };
 
 // One primitive of one mesh, placed by one node (or one of its instances).
@@ -23,6 +33,7 @@ struct Drawable {
   glm::dmat4 world_from_mesh{1.0};
   int material = -1;                    // after the variant's choice; -1: glTF's default material
   int node = -1, mesh = -1, primitive = -1;
+  Bounds bounds_mesh;                   // of all its finite vertices; empty: not known
 };
 
 struct PosedLight {
@@ -36,12 +47,6 @@ struct PosedCamera {
   glm::dmat4 world_from_camera{1.0};
 };
 
-// Of all vertices of all drawables. `empty` when there is none.
-struct Bounds {
-  glm::dvec3 low{0.0}, high{0.0};
-  bool empty = true;
-};
-
 // Refers to the Scene it was made from, which must outlive it. Guaranteed of each drawable's geometry: attribute arrays
 // as long as positions or empty; indices in range; where its material has a normal texture and its topology is one of
 // triangles: normals and tangents present (made by MikkTSpace where the file has none; a primitive without normals
@@ -50,8 +55,9 @@ struct PosedScene {
   std::vector<Drawable> drawables;  // in the order of a depth-first walk of the scene's roots
   std::vector<PosedLight> lights;
   std::vector<PosedCamera> cameras;
-  Bounds bounds;
+  Bounds bounds;  // of all vertices of all drawables
   std::deque<Primitive> owned;  // deformed or completed copies
+  bool skinned = false, morphed = false;  // some geometry is
 };
 
 // Animation, hierarchy, visibility, instances, morph targets, skins, variants, missing tangents. Runs in parallel

@@ -79,7 +79,8 @@ class TangentMaker {
     MakeGroups();
     std::vector<glm::vec4> tangents(corners_.size());
     ParallelFor(groups_.groups.size(), 1024, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t g = begin; g < end; ++g) MakeGroupTangents(groups_.groups[g], tangents);
+      std::vector<Share> shares;
+      for (std::size_t g = begin; g < end; ++g) MakeGroupTangents(groups_.groups[g], shares, tangents);
     });
     FillUngrouped(tangents);
     return tangents;
@@ -176,10 +177,11 @@ class TangentMaker {
            (glm::dot(a.along_u, b.along_u) <= kOpposite || glm::dot(a.along_v, b.along_v) <= kOpposite);
   }
 
-  void MakeGroupTangents(const Group& group, std::vector<glm::vec4>& tangents) const {
+  // `shares` is memory to work in.
+  void MakeGroupTangents(const Group& group, std::vector<Share>& shares, std::vector<glm::vec4>& tangents) const {
     const glm::dvec3 normal = Normal(group.vertex);
     const std::size_t count = group.end - group.begin;
-    std::vector<Share> shares(count);
+    shares.resize(count);
     glm::dvec3 sum_u(0.0), sum_v(0.0);
     for (std::size_t i = 0; i < count; ++i) {
       shares[i] = ShareOf(groups_.members[group.begin + i], normal);

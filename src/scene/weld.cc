@@ -27,26 +27,36 @@ std::uint64_t Hash(const Key& key) {
 
 }  // namespace
 
-// Sorting by hash and key, and not a hash table, because a file can be made so that all its hashes collide.
+// Vertices are dealt into about as many buckets as there are, by their hashes, and each bucket is sorted: a file can be
+// made so that all its hashes collide.
 std::vector<std::uint32_t> WeldVertices(const Primitive& primitive, const std::vector<glm::vec2>& uvs) {
-  struct Entry {
-    std::uint64_t hash = 0;
-    std::uint32_t vertex = 0;
-  };
   const std::size_t count = primitive.positions.size();
   const auto key_of = [&](std::size_t i) { return KeyOf(primitive.positions[i], primitive.normals[i], uvs[i]); };
-  std::vector<Entry> entries(count);
-  for (std::size_t i = 0; i < count; ++i) entries[i] = {Hash(key_of(i)), std::uint32_t(i)};
-  std::sort(entries.begin(), entries.end(), [&](const Entry& a, const Entry& b) {
-    if (a.hash != b.hash) return a.hash < b.hash;
-    const Key key_a = key_of(a.vertex), key_b = key_of(b.vertex);
-    return key_a != key_b ? key_a < key_b : a.vertex < b.vertex;
-  });
-  std::vector<std::uint32_t> first(count);
+  const std::size_t mask = std::bit_ceil(count) - 1;
+  std::vector<std::uint64_t> hashes(count);
+  std::vector<std::uint32_t> start(mask + 2, 0);
   for (std::size_t i = 0; i < count; ++i) {
-    const Entry& entry = entries[i];
-    const std::uint32_t previous = i > 0 ? entries[i - 1].vertex : entry.vertex;
-    first[entry.vertex] = key_of(previous) == key_of(entry.vertex) && i > 0 ? first[previous] : entry.vertex;
+    hashes[i] = Hash(key_of(i));
+    ++start[(hashes[i] & mask) + 1];
+  }
+  for (std::size_t b = 0; b <= mask; ++b) start[b + 1] += start[b];
+  std::vector<std::uint32_t> vertices(count), end(start.begin(), start.end() - 1);
+  for (std::size_t i = 0; i < count; ++i) vertices[end[hashes[i] & mask]++] = std::uint32_t(i);
+
+  std::vector<std::uint32_t> first(count);
+  for (std::size_t b = 0; b <= mask; ++b) {
+    const auto low = vertices.begin() + start[b], high = vertices.begin() + start[b + 1];
+    if (high - low > 1) {
+      std::sort(low, high, [&](std::uint32_t v, std::uint32_t w) {
+        if (hashes[v] != hashes[w]) return hashes[v] < hashes[w];
+        const Key key_v = key_of(v), key_w = key_of(w);
+        return key_v != key_w ? key_v < key_w : v < w;
+      });
+    }
+    for (auto v = low; v != high; ++v) {
+      const bool same = v != low && hashes[*(v - 1)] == hashes[*v] && key_of(*(v - 1)) == key_of(*v);
+      first[*v] = same ? first[*(v - 1)] : *v;
+    }
   }
   return first;
 }

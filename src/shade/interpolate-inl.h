@@ -29,10 +29,11 @@ HWY_INLINE Barycentric<T> InterpolationWeights(const float* setups, IntOf<T> bas
   const float* planes = setups + SetupLayout::kPlanes;
   T a[3], b[3], e[3];
   for (int i = 0; i < 3; ++i) {
-    a[i] = Fetch<T>(planes + 3 * i, base);
-    b[i] = Fetch<T>(planes + 3 * i + 1, base);
+    const Vec4<T> plane = FetchVec4<T>(planes + 3 * i, base);  // its fourth number is not ours
+    a[i] = plane.x;
+    b[i] = plane.y;
     // Snapping and partly covered pixels put fragments a little outside their triangle; clamped, they read its edge.
-    e[i] = Max((Fetch<T>(planes + 3 * i + 2, base) + a[i] * x) + b[i] * y, T(0.0f));
+    e[i] = Max((plane.z + a[i] * x) + b[i] * y, T(0.0f));
   }
   const T sum = (e[0] + e[1]) + e[2];
   const MaskOf<T> good = (sum > T(0.0f)) & IsFinite(sum);
@@ -52,17 +53,12 @@ HWY_INLINE T Weigh(const T (&weights)[3], T v0, T v1, T v2) {
   return (weights[0] * v0 + weights[1] * v1) + weights[2] * v2;
 }
 
-// A number of each vertex, `stride` apart, at setups[base + first].
+// Four numbers of each vertex, `stride` apart, at setups[base + first].
 template <class T>
-HWY_INLINE T InterpolateOne(const float* setups, IntOf<T> base, const Barycentric<T>& w, int first, int stride) {
-  return Weigh(w.b, Fetch<T>(setups + first, base), Fetch<T>(setups + first + stride, base),
-               Fetch<T>(setups + first + 2 * stride, base));
-}
-
-template <class T>
-HWY_INLINE Vec3<T> InterpolateVec3(const float* setups, IntOf<T> base, const Barycentric<T>& w, int first, int stride) {
-  return {InterpolateOne(setups, base, w, first, stride), InterpolateOne(setups, base, w, first + 1, stride),
-          InterpolateOne(setups, base, w, first + 2, stride)};
+HWY_INLINE Vec4<T> InterpolateVec4(const float* setups, IntOf<T> base, const Barycentric<T>& w, int first, int stride) {
+  const Vec4<T> p = FetchVec4<T>(setups + first, base), q = FetchVec4<T>(setups + first + stride, base),
+                r = FetchVec4<T>(setups + first + 2 * stride, base);
+  return {Weigh(w.b, p.x, q.x, r.x), Weigh(w.b, p.y, q.y, r.y), Weigh(w.b, p.z, q.z, r.z), Weigh(w.b, p.w, q.w, r.w)};
 }
 
 // The surface under fragment i of `task`, or those of all lanes from i on: only what its material reads.
@@ -74,30 +70,26 @@ HWY_INLINE Surface<T> InterpolateSurface(const ShadeTask& task, std::size_t i) {
   const Barycentric<T> w = InterpolationWeights(setups, base, Load<T>(task.x + i), Load<T>(task.y + i));
   Surface<T> s{};
   s.color = {T(1.0f), T(1.0f), T(1.0f), T(1.0f)};
-  if (material.vertex_colors) {
-    const Vec3<T> rgb = InterpolateVec3(setups, base, w, SetupLayout::kColors, 4);
-    s.color = {rgb.x, rgb.y, rgb.z, InterpolateOne(setups, base, w, SetupLayout::kColors + 3, 4)};
-  }
+  if (material.vertex_colors) s.color = InterpolateVec4(setups, base, w, SetupLayout::kColors, 4);
   if (material.Has(kLit)) {
     const Vec3<T> up{T(0.0f), T(0.0f), T(1.0f)};
-    s.position = InterpolateVec3(setups, base, w, SetupLayout::kPositions, 3);
+    s.position = Xyz(InterpolateVec4(setups, base, w, SetupLayout::kPositions, 3));
     s.view = task.orthographic
                  ? Vec3<T>{T(task.view_direction[0]), T(task.view_direction[1]), T(task.view_direction[2])}
                  : NormalizeOr(-s.position, up);
-    s.interpolated_normal = InterpolateVec3(setups, base, w, SetupLayout::kNormals, 3);
+    s.interpolated_normal = Xyz(InterpolateVec4(setups, base, w, SetupLayout::kNormals, 3));
     s.normal = NormalizeOr(s.interpolated_normal, s.view);
   }
-  if (material.Has(kNormalTexture)) {
-    const Vec3<T> t = InterpolateVec3(setups, base, w, SetupLayout::kTangents, 4);
-    s.tangent = {t.x, t.y, t.z, InterpolateOne(setups, base, w, SetupLayout::kTangents + 3, 4)};
-  }
+  if (material.Has(kNormalTexture)) s.tangent = InterpolateVec4(setups, base, w, SetupLayout::kTangents, 4);
   for (int slot = 0; slot < material.uv_slots; ++slot) {
     const float* p = setups + SetupLayout::kTexCoords + 6 * slot;
-    const T u0 = Fetch<T>(p, base), v0 = Fetch<T>(p + 1, base), u1 = Fetch<T>(p + 2, base), v1 = Fetch<T>(p + 3, base),
-            u2 = Fetch<T>(p + 4, base), v2 = Fetch<T>(p + 5, base);
-    s.uv[slot] = {Weigh(w.b, u0, u1, u2), Weigh(w.b, v0, v1, v2)};
-    s.duv_dx[slot] = {Weigh(w.db_dx, u0, u1, u2), Weigh(w.db_dx, v0, v1, v2)};
-    s.duv_dy[slot] = {Weigh(w.db_dy, u0, u1, u2), Weigh(w.db_dy, v0, v1, v2)};
+    const Vec4<T> uv01 = FetchVec4<T>(p, base), uv12 = FetchVec4<T>(p + 2, base);
+    const auto weigh = [&](const T (&weights)[3]) HWY_ATTR {
+      return Vec2<T>{Weigh(weights, uv01.x, uv01.z, uv12.z), Weigh(weights, uv01.y, uv01.w, uv12.w)};
+    };
+    s.uv[slot] = weigh(w.b);
+    s.duv_dx[slot] = weigh(w.db_dx);
+    s.duv_dy[slot] = weigh(w.db_dy);
   }
   return s;
 }

@@ -16,6 +16,28 @@ HWY_BEFORE_NAMESPACE();
 namespace facet {
 namespace HWY_NAMESPACE {
 
+// Reads textures at one packet of fragments. Those that are sampled alike share what it takes to find their texels.
+template <class T>
+class TextureReader {
+ public:
+  HWY_INLINE explicit TextureReader(const Surface<T>& surface) : s_(surface) {}
+
+  template <int kChannels>
+  HWY_INLINE Vec4<T> Read(const TextureSlot& slot) {
+    if (made_for_ == nullptr || !HaveSameTaps(*made_for_, slot)) {
+      const int k = slot.uv_slot;
+      MakeTextureTaps(slot, s_.uv[k], s_.duv_dx[k], s_.duv_dy[k], taps_);
+      made_for_ = &slot;
+    }
+    return ReadTexture<kChannels>(slot, taps_);
+  }
+
+ private:
+  const Surface<T>& s_;
+  const TextureSlot* made_for_ = nullptr;
+  TextureTaps<T> taps_;
+};
+
 // T is Float (lanes), float or double.
 template <class T>
 class MaterialView {
@@ -26,22 +48,63 @@ class MaterialView {
 
   // Factor times texture times vertex colour, straight alpha. Linear.
   HWY_INLINE Vec4<T> BaseColor(const Surface<T>& s) const {
-    Vec4<T> c{T(m_.base_color[0]) * s.color.x, T(m_.base_color[1]) * s.color.y, T(m_.base_color[2]) * s.color.z,
-              T(m_.base_color[3]) * s.color.w};
-    if (m_.Has(kBaseColorTexture)) c = c * Read<kRgba>(m_.base_color_texture, s);
-    return c;
+    TextureReader<T> textures(s);
+    return BaseColor(s, textures);
   }
 
   HWY_INLINE T Alpha(const Surface<T>& s) const {
+    TextureReader<T> textures(s);
     T alpha = T(m_.base_color[3]) * s.color.w;
-    if (m_.Has(kBaseColorTexture)) alpha = alpha * Read<kA>(m_.base_color_texture, s).w;
+    if (m_.Has(kBaseColorTexture)) alpha = alpha * textures.template Read<kA>(m_.base_color_texture).w;
     return alpha;
   }
 
   // The shading normal, unit: the interpolated one, bent by the normal texture.
   HWY_INLINE Vec3<T> Normal(const Surface<T>& s) const {
+    TextureReader<T> textures(s);
+    return Normal(s, textures);
+  }
+
+  HWY_INLINE Vec3<T> Emissive(const Surface<T>& s) const {
+    TextureReader<T> textures(s);
+    return Emissive(textures);
+  }
+
+  // All that the metallic-roughness model reads.
+  HWY_INLINE MaterialInputs<T> Inputs(const Surface<T>& s) const {
+    TextureReader<T> textures(s);
+    MaterialInputs<T> in{};
+    const Vec4<T> base = BaseColor(s, textures);
+    in.base_color = Xyz(base);
+    in.alpha_coverage = base.w;
+    in.metallic = T(m_.metallic);
+    in.perceptual_roughness = T(m_.perceptual_roughness);
+    if (m_.Has(kMetallicRoughnessTexture)) {
+      const Vec4<T> texel = textures.template Read<kG | kB>(m_.metallic_roughness_texture);
+      in.perceptual_roughness = in.perceptual_roughness * texel.y;
+      in.metallic = in.metallic * texel.z;
+    }
+    in.occlusion = T(1.0f);
+    if (m_.Has(kOcclusionTexture)) {
+      in.occlusion = T(1.0f) + T(m_.occlusion_strength) *
+                                   (textures.template Read<kR>(m_.occlusion_texture).x - T(1.0f));
+    }
+    in.normal = Normal(s, textures);
+    if (m_.Has(kEmission)) in.emissive = Emissive(textures);
+    return in;
+  }
+
+ private:
+  HWY_INLINE Vec4<T> BaseColor(const Surface<T>& s, TextureReader<T>& textures) const {
+    Vec4<T> c{T(m_.base_color[0]) * s.color.x, T(m_.base_color[1]) * s.color.y, T(m_.base_color[2]) * s.color.z,
+              T(m_.base_color[3]) * s.color.w};
+    if (m_.Has(kBaseColorTexture)) c = c * textures.template Read<kRgba>(m_.base_color_texture);
+    return c;
+  }
+
+  HWY_INLINE Vec3<T> Normal(const Surface<T>& s, TextureReader<T>& textures) const {
     if (!m_.Has(kNormalTexture)) return s.normal;
-    const Vec4<T> texel = Read<kRgb>(m_.normal_texture, s);
+    const Vec4<T> texel = textures.template Read<kRgb>(m_.normal_texture);
     const T scale(m_.normal_scale);
     const Vec3<T> n{(texel.x * T(2.0f) - T(1.0f)) * scale, (texel.y * T(2.0f) - T(1.0f)) * scale,
                     texel.z * T(2.0f) - T(1.0f)};
@@ -50,39 +113,10 @@ class MaterialView {
     return NormalizeOr(tangent * n.x + bitangent * n.y + s.interpolated_normal * n.z, s.normal);
   }
 
-  HWY_INLINE Vec3<T> Emissive(const Surface<T>& s) const {
+  HWY_INLINE Vec3<T> Emissive(TextureReader<T>& textures) const {
     Vec3<T> e{T(m_.emissive[0]), T(m_.emissive[1]), T(m_.emissive[2])};
-    if (m_.Has(kEmissiveTexture)) e = e * Xyz(Read<kRgb>(m_.emissive_texture, s));
+    if (m_.Has(kEmissiveTexture)) e = e * Xyz(textures.template Read<kRgb>(m_.emissive_texture));
     return e;
-  }
-
-  // All that the metallic-roughness model reads.
-  HWY_INLINE MaterialInputs<T> Inputs(const Surface<T>& s) const {
-    MaterialInputs<T> in{};
-    const Vec4<T> base = BaseColor(s);
-    in.base_color = Xyz(base);
-    in.alpha_coverage = base.w;
-    in.metallic = T(m_.metallic);
-    in.perceptual_roughness = T(m_.perceptual_roughness);
-    if (m_.Has(kMetallicRoughnessTexture)) {
-      const Vec4<T> texel = Read<kG | kB>(m_.metallic_roughness_texture, s);
-      in.perceptual_roughness = in.perceptual_roughness * texel.y;
-      in.metallic = in.metallic * texel.z;
-    }
-    in.occlusion = T(1.0f);
-    if (m_.Has(kOcclusionTexture)) {
-      in.occlusion = T(1.0f) + T(m_.occlusion_strength) * (Read<kR>(m_.occlusion_texture, s).x - T(1.0f));
-    }
-    in.normal = Normal(s);
-    if (m_.Has(kEmission)) in.emissive = Emissive(s);
-    return in;
-  }
-
- private:
-  template <int kChannels>
-  HWY_INLINE static Vec4<T> Read(const TextureSlot& slot, const Surface<T>& s) {
-    const int k = slot.uv_slot;
-    return SampleTexture<kChannels>(slot, s.uv[k], s.duv_dx[k], s.duv_dy[k]);
   }
 
   const FrameMaterial& m_;

@@ -23,13 +23,33 @@ void AlphaKernel(const ShadeTask& task) {
 
 void BackgroundKernel(const BackgroundTask& task) {
   const LightingView<Float> lighting(*task.lighting);
-  for (std::size_t i = 0; i < task.count; i += LaneCount()) {
-    const Vec3<Float> to_pixel{LoadFloat(task.x + i), LoadFloat(task.y + i), LoadFloat(task.z + i)};
-    const Vec3<Float> c =
-        lighting.Background(NormalizeOr(to_pixel, Vec3<Float>{Float(0.0f), Float(0.0f), Float(-1.0f)}));
-    Store(c.x, task.red + i);
-    Store(c.y, task.green + i);
-    Store(c.z, task.blue + i);
+  constexpr int kPixels = 16;  // at a time, whatever the lanes
+  alignas(64) float direction[3][kPixels], color[3][kPixels];
+  for (int x = 0; x < task.width; x += kPixels) {
+    const int count = task.width - x < kPixels ? task.width - x : kPixels;
+    bool any = false;
+    for (int i = 0; i < count; ++i) any |= task.pixels[4 * (x + i) + 3] < 1.0f;
+    if (!any) continue;
+    for (int c = 0; c < 3; ++c) {
+      for (int i = 0; i < kPixels; ++i) {
+        direction[c][i] = static_cast<float>((task.column[c][x + i] + task.row[c]) + task.whole[c]);
+      }
+    }
+    for (int i = 0; i < count; i += static_cast<int>(LaneCount())) {
+      const Vec3<Float> to_pixel{LoadFloat(direction[0] + i), LoadFloat(direction[1] + i), LoadFloat(direction[2] + i)};
+      const Vec3<Float> seen =
+          lighting.Background(NormalizeOr(to_pixel, Vec3<Float>{Float(0.0f), Float(0.0f), Float(-1.0f)}));
+      Store(seen.x, color[0] + i);
+      Store(seen.y, color[1] + i);
+      Store(seen.z, color[2] + i);
+    }
+    for (int i = 0; i < count; ++i) {
+      float* pixel = task.pixels + 4 * (x + i);
+      const float share = 1.0f - pixel[3];
+      if (!(share > 0.0f)) continue;
+      for (int c = 0; c < 3; ++c) pixel[c] += color[c][i] * share;
+      pixel[3] += share;
+    }
   }
 }
 

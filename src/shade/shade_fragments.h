@@ -11,17 +11,14 @@ void ShadeMetallicRoughnessFragments(const ShadeTask& task);
 // Alpha alone, for the alpha test. Fills task.alpha.
 void ShadeAlpha(const ShadeTask& task);
 
-// The environment behind the picture. For each of `count` pixels the direction from the eye (world axes, any length).
-// Inputs readable and outputs writable up to a multiple of 16.
+// The environment behind a row of pixels: laid under those whose coverage is below 1. The direction from the eye through
+// pixel x (world axes, any length) is column[.][x] + row + whole; columns are readable up to a multiple of 16.
 struct BackgroundTask {
-  const float* x = nullptr;
-  const float* y = nullptr;
-  const float* z = nullptr;
-  std::size_t count = 0;
+  const double* column[3] = {};
+  double row[3] = {}, whole[3] = {};
+  int width = 0;
   const LightingData* lighting = nullptr;
-  float* red = nullptr;
-  float* green = nullptr;
-  float* blue = nullptr;
+  float* pixels = nullptr;  // linear light times coverage, and coverage: four numbers each
 };
 void ShadeBackground(const BackgroundTask& task);
 

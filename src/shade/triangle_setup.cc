@@ -41,6 +41,20 @@ glm::dvec3 UnitOr(const glm::dvec3& v, const glm::dvec3& fallback) {
 
 }  // namespace
 
+void PrefetchIndices(const FrameDrawable& drawable, const TriangleRecord& record) {
+  const auto& indices = drawable.geometry->indices;
+  const std::size_t first = std::size_t(record.primitive) * 3;  // of a strip it is elsewhere: no harm
+  if (first + 2 < indices.size()) __builtin_prefetch(&indices[first]);
+}
+
+void PrefetchVertices(const FrameDrawable& drawable, const TriangleRecord& record) {
+  const Primitive& geometry = *drawable.geometry;
+  for (const std::size_t v : PrimitiveVertices(geometry, record.primitive)) {
+    __builtin_prefetch(&geometry.positions[v]);
+    if (!geometry.normals.empty()) __builtin_prefetch(&geometry.normals[v]);
+  }
+}
+
 void SetUpTriangle(const FrameView& view, const FrameDrawable& drawable, const FrameMaterial& material,
                    const TriangleRecord& record, int anchor_x, int anchor_y, float* setup) {
   const Primitive& geometry = *drawable.geometry;

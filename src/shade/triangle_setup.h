@@ -6,7 +6,7 @@
 
 namespace facet {
 
-// Layout of a setup: numbers of float, read by lanes through gathers. Attributes stand vertex after vertex. World axes;
+// Layout of a setup: numbers of float, which lanes read by fours (the fourth may be a neighbour's). Attributes stand vertex after vertex. World axes;
 // positions relative to the eye. Normals, tangents and handedness are turned to the viewer's side.
 struct SetupLayout {
   // Perspective weights e_i(x, y) = plane[3 i] * x + plane[3 i + 1] * y + plane[3 i + 2], x and y in pixels from the
@@ -29,5 +29,10 @@ static_assert(SetupLayout::kStride % 4 == 0);
 // file's positions, so they do not suffer from snapping.
 void SetUpTriangle(const FrameView& view, const FrameDrawable& drawable, const FrameMaterial& material,
                    const TriangleRecord& record, int anchor_x, int anchor_y, float* setup);
+
+// Ask for memory that SetUpTriangle will read: first the indices, then, once they are there, the vertices. A frame of
+// small triangles waits for little else.
+void PrefetchIndices(const FrameDrawable& drawable, const TriangleRecord& record);
+void PrefetchVertices(const FrameDrawable& drawable, const TriangleRecord& record);
 
 }  // namespace facet

@@ -1,152 +1,30 @@
+#include "texture/build_texture.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <string>
+#include <utility>
 
-#include "base/parallel.h"
 #include "color/srgb.h"
 #include "facet/error.h"
 #include "math/elementary.h"
-#include "texture/texture.h"
+#include "texture/texture_kernels.h"
 
 namespace facet {
 namespace {
 
-struct Rgba {
-  float r, g, b, a;
-};
-
-// A picture's texels as linear numbers in [0, 1], row by row.
-class TexelReader {
- public:
-  TexelReader(const Image& image, TextureRole role) : image_(image) {
-    const bool srgb = role == TextureRole::Color && image.encoding == Encoding::Srgb && image.type != ChannelType::F32;
-    if (image.type == ChannelType::U8) {
-      for (int i = 0; i < 256; ++i)
-        color8_[i] = srgb ? SrgbToLinear(static_cast<float>(i) / 255.0f) : static_cast<float>(i) / 255.0f;
-    } else if (image.type == ChannelType::U16 && srgb) {
-      color16_.resize(65536);
-      for (int i = 0; i < 65536; ++i) color16_[std::size_t(i)] = SrgbToLinear(static_cast<float>(i) / 65535.0f);
-    }
-  }
-
-  void Row(int y, Rgba* out) const {
-    const std::size_t first = std::size_t(y) * std::size_t(image_.width) * std::size_t(image_.channels);
-    switch (image_.type) {
-      case ChannelType::U8: {
-        const std::uint8_t* p = image_.As<std::uint8_t>() + first;
-        Expand(
-            out, [&](int i) { return color8_[p[i]]; }, [&](int i) { return static_cast<float>(p[i]) / 255.0f; });
-        break;
-      }
-      case ChannelType::U16: {
-        const std::uint16_t* p = image_.As<std::uint16_t>() + first;
-        const auto data = [&](int i) { return static_cast<float>(p[i]) / 65535.0f; };
-        if (color16_.empty())
-          Expand(out, data, data);
-        else
-          Expand(
-              out, [&](int i) { return color16_[p[i]]; }, data);
-        break;
-      }
-      case ChannelType::F32: {
-        const float* p = image_.As<float>() + first;
-        const auto data = [&](int i) { return p[i] > 0.0f ? std::min(p[i], 1.0f) : 0.0f; };
-        Expand(out, data, data);
-        break;
-      }
-    }
-  }
-
- private:
-  template <class Color, class Alpha>
-  void Expand(Rgba* out, const Color& color, const Alpha& alpha) const {
-    const int n = image_.width, c = image_.channels;
-    if (c == 1)
-      for (int x = 0; x < n; ++x) {
-        const float v = color(x);
-        out[x] = {v, v, v, 1.0f};
-      }
-    if (c == 2)
-      for (int x = 0; x < n; ++x) {
-        const float v = color(2 * x);
-        out[x] = {v, v, v, alpha(2 * x + 1)};
-      }
-    if (c == 3)
-      for (int x = 0; x < n; ++x) out[x] = {color(3 * x), color(3 * x + 1), color(3 * x + 2), 1.0f};
-    if (c == 4) {
-      for (int x = 0; x < n; ++x) out[x] = {color(4 * x), color(4 * x + 1), color(4 * x + 2), alpha(4 * x + 3)};
-    }
-  }
-
-  const Image& image_;
-  float color8_[256];
-  std::vector<float> color16_;
-};
-
-std::int32_t Quantize(float value, float scale) { return static_cast<std::int32_t>(value * scale + 0.5f); }
-
-void StoreRow(TextureData& texture, int level, int y, const Rgba* row) {
-  const int width = texture.level_width[level];
-  const std::size_t base = std::size_t(texture.level_offset[level]) +
-                           std::size_t(y / 4) * std::size_t(texture.level_pitch[level]) * 16 + std::size_t(y % 4) * 4;
-  for (int x = 0; x < width; ++x) {
-    const std::size_t texel = base + std::size_t(x / 4) * 16 + std::size_t(x % 4);
-    const Rgba& c = row[x];
-    if (texture.wide) {
-      texture.words[2 * texel] = Quantize(c.r, 65535.0f) |
-                                 static_cast<std::int32_t>(static_cast<std::uint32_t>(Quantize(c.g, 65535.0f)) << 16);
-      texture.words[2 * texel + 1] =
-          Quantize(c.b, 65535.0f) |
-          static_cast<std::int32_t>(static_cast<std::uint32_t>(Quantize(c.a, 65535.0f)) << 16);
-    } else {
-      texture.words[texel] = Quantize(c.r, 255.0f) | Quantize(c.g, 255.0f) << 8 | Quantize(c.b, 255.0f) << 16 |
-                             static_cast<std::int32_t>(static_cast<std::uint32_t>(Quantize(c.a, 255.0f)) << 24);
-    }
-  }
-}
-
-// How much of the three texels from 2 * i onwards lies under texel i of the next level: its area is
-// [i * n / m, (i + 1) * n / m] with n = 2 m or 2 m + 1 texels becoming m (Guthe and Heckbert 2005, "Non-power-of-two
-// mipmapping": a polyphase box). Where n is even that is two halves.
-struct BoxWeights {
-  float w[3];
-};
-BoxWeights WeightsOf(int i, int n, int m) {
-  if (n == 1) return {{1.0f, 0.0f, 0.0f}};
-  if (n == 2 * m) return {{0.5f, 0.5f, 0.0f}};
-  const float total = static_cast<float>(n);
-  return {{static_cast<float>(m - i) / total, static_cast<float>(m) / total, static_cast<float>(i + 1) / total}};
-}
-
-// One row of the next level from up to three rows above it, already weighted by the caller.
-void HalveRow(const Rgba* const rows[3], const BoxWeights& wy, int n, int m, Rgba* out) {
-  const int taps_y = wy.w[2] != 0.0f ? 3 : wy.w[1] != 0.0f ? 2 : 1;
-  for (int i = 0; i < m; ++i) {
-    const BoxWeights wx = WeightsOf(i, n, m);
-    const int taps_x = wx.w[2] != 0.0f ? 3 : wx.w[1] != 0.0f ? 2 : 1;
-    Rgba sum{0, 0, 0, 0};
-    for (int ty = 0; ty < taps_y; ++ty) {
-      for (int tx = 0; tx < taps_x; ++tx) {
-        const Rgba& c = rows[ty][2 * i + tx];
-        const float w = wy.w[ty] * wx.w[tx];
-        sum = {sum.r + w * c.r, sum.g + w * c.g, sum.b + w * c.b, sum.a + w * c.a};
-      }
-    }
-    out[i] = {std::min(sum.r, 1.0f), std::min(sum.g, 1.0f), std::min(sum.b, 1.0f), std::min(sum.a, 1.0f)};
-  }
-}
-
 int Half(int size) { return std::max(size / 2, 1); }
 
-void LayOut(TextureData& texture, const Image& image, bool mips) {
+void LayOut(TextureData& texture, int picture_width, int picture_height, bool mips) {
   constexpr int kMaxSize = 1 << (kMaxTextureLevels - 1);
-  if (image.width > kMaxSize || image.height > kMaxSize || image.PixelCount() > (std::size_t{1} << 27)) {
+  if (picture_width > kMaxSize || picture_height > kMaxSize ||
+      std::size_t(picture_width) * std::size_t(picture_height) > (std::size_t{1} << 27)) {
     throw Error(ErrorCode::OutOfMemory,
-                "a texture of " + std::to_string(image.width) + " x " + std::to_string(image.height) + " texels", {},
+                "a texture of " + std::to_string(picture_width) + " x " + std::to_string(picture_height) + " texels", {},
                 "the limit is 32768 a side and 2^27 in all");
   }
-  int width = image.width, height = image.height;
+  int width = picture_width, height = picture_height;
   std::size_t texels = 0;
   for (texture.levels = 0;; width = Half(width), height = Half(height)) {
     const int l = texture.levels++;
@@ -158,59 +36,140 @@ void LayOut(TextureData& texture, const Image& image, bool mips) {
     if (!mips || (width == 1 && height == 1)) break;
   }
   texture.words.resize(texels * (texture.wide ? 2 : 1));
+  // Squares at the right and lower edges may be filled in part only; what no row fills is zero.
+  for (int l = 0; l < texture.levels; ++l) {
+    if (texture.level_width[l] % 4 == 0 && texture.level_height[l] % 4 == 0) continue;
+    const auto begin = texture.words.begin() + std::ptrdiff_t(texture.WordOf(l, 0));
+    std::fill(begin, l + 1 < texture.levels ? begin + std::ptrdiff_t(texture.WordOf(l + 1, 0) - texture.WordOf(l, 0))
+                                            : texture.words.end(), 0);
+  }
+}
+
+[[noreturn]] void Refuse(const Image& rows, int height) {
+  throw Error(ErrorCode::InvalidInput, "a picture of " + std::to_string(rows.width) + " x " + std::to_string(height) +
+                                           " pixels with " + std::to_string(rows.channels) + " channels in " +
+                                           std::to_string(rows.bytes.size()) + " bytes");
+}
+
+template <int kChannels, class Number, class Color, class Alpha>
+void Expand(const Number* p, int width, const Color& color, const Alpha& alpha, float* const* planes) {
+  constexpr int kColors = kChannels - (kChannels % 2 == 0 ? 1 : 0);
+  for (int x = 0; x < width; ++x, p += kChannels) {
+    for (int c = 0; c < kColors; ++c) planes[c][x] = color(p[c]);
+    if constexpr (kColors < kChannels) planes[kColors][x] = alpha(p[kColors]);
+  }
+}
+
+template <class Number, class Color, class Alpha>
+void Expand(int channels, const Number* p, int width, const Color& color, const Alpha& alpha, float* const* planes) {
+  switch (channels) {
+    case 1: return Expand<1>(p, width, color, alpha, planes);
+    case 2: return Expand<2>(p, width, color, alpha, planes);
+    case 3: return Expand<3>(p, width, color, alpha, planes);
+    default: return Expand<4>(p, width, color, alpha, planes);
+  }
 }
 
 }  // namespace
 
+TextureBuilder::TextureBuilder(const Image& form, int height, TextureRole role, bool mips, TexelBits bits)
+    : width_(form.width), channels_(form.channels), type_(form.type) {
+  const bool sized = width_ >= 1 && height >= 1 && form.height >= 1 && channels_ >= 1 && channels_ <= 4;
+  if (!sized || form.bytes.size() / (std::size_t(channels_) * SizeOf(type_)) != form.PixelCount()) Refuse(form, height);
+  texture_.wide = bits == TexelBits::Mixed ? role == TextureRole::Color || type_ != ChannelType::U8
+                                           : bits == TexelBits::Sixteen;
+  LayOut(texture_, width_, height, mips);
+  if (type_ != ChannelType::F32) {
+    const int codes = type_ == ChannelType::U8 ? 256 : 65536;
+    for (int i = 0; i < codes; ++i) linear_.push_back(static_cast<float>(i) / static_cast<float>(codes - 1));
+    color_ = linear_;
+    if (role == TextureRole::Color && form.encoding == Encoding::Srgb) {
+      std::transform(linear_.begin(), linear_.end(), color_.begin(), SrgbToLinear);
+    }
+  }
+  for (int l = 0; l < texture_.levels; ++l) {
+    rows_.emplace_back(3 * std::size_t(channels_) * (std::size_t(texture_.level_width[l]) + kRowSlack));
+  }
+}
+
+float* TextureBuilder::Plane(int level, int y, int channel) {
+  return rows_[std::size_t(level)].data() +
+         std::size_t(y % 3 * channels_ + channel) * (std::size_t(texture_.level_width[level]) + kRowSlack);
+}
+
+void TextureBuilder::Add(const Image& rows) {
+  const std::size_t row_numbers = std::size_t(width_) * std::size_t(channels_);
+  if (rows.width != width_ || rows.channels != channels_ || rows.type != type_ ||
+      rows.height > texture_.level_height[0] - next_row_ ||
+      rows.bytes.size() != row_numbers * std::size_t(rows.height) * SizeOf(type_)) {
+    Refuse(rows, rows.height);
+  }
+  for (int y = 0; y < rows.height; ++y) {
+    const std::size_t first = std::size_t(y) * row_numbers;
+    float* planes[4];
+    for (int c = 0; c < channels_; ++c) planes[c] = Plane(0, next_row_, c);
+    const auto color = [this](auto code) { return color_[code]; };
+    const auto linear = [this](auto code) { return linear_[code]; };
+    const auto clamped = [](float value) { return value > 0.0f ? std::min(value, 1.0f) : 0.0f; };
+    switch (type_) {
+      case ChannelType::U8:
+        Expand(channels_, rows.As<std::uint8_t>() + first, width_, color, linear, planes);
+        break;
+      case ChannelType::U16:
+        Expand(channels_, rows.As<std::uint16_t>() + first, width_, color, linear, planes);
+        break;
+      case ChannelType::F32:
+        Expand(channels_, rows.As<float>() + first, width_, clamped, clamped, planes);
+        break;
+    }
+    FinishRow(0, next_row_++);
+  }
+}
+
+// Stores a row whose planes are filled, and makes the row of the next level that it completes: of two rows, three where
+// a height is odd.
+void TextureBuilder::FinishRow(int level, int y) {
+  const bool grey = channels_ < 3, alpha = channels_ % 2 == 0;
+  StoreRow({{Plane(level, y, 0), Plane(level, y, grey ? 0 : 1), Plane(level, y, grey ? 0 : 2),
+             alpha ? Plane(level, y, channels_ - 1) : nullptr},
+            texture_.level_width[level],
+            texture_.wide,
+            texture_.words.data() + texture_.WordOf(level, y)});
+  if (level + 1 == texture_.levels) return;
+  const int h = texture_.level_height[level], half = Half(h);
+  const int taps = h == 1 ? 1 : h == 2 * half ? 2 : 3;
+  const int i = (y + 1 - taps) / 2;
+  if (y + 1 < taps || 2 * i + taps != y + 1 || i == half) return;
+  HalveRowTask task{};
+  task.row_count = taps;
+  task.n = texture_.level_width[level];
+  task.m = texture_.level_width[level + 1];
+  const float total = static_cast<float>(h);
+  const float weights[3][3] = {
+      {1.0f},
+      {0.5f, 0.5f},
+      {static_cast<float>(half - i) / total, static_cast<float>(half) / total, static_cast<float>(i + 1) / total}};
+  std::copy_n(weights[taps - 1], 3, task.weights);
+  for (int c = 0; c < channels_; ++c) {
+    for (int t = 0; t < taps; ++t) task.rows[t] = Plane(level, 2 * i + t, c);
+    task.out = Plane(level + 1, i, c);
+    HalveRow(task);
+  }
+  FinishRow(level + 1, i);
+}
+
+TextureData TextureBuilder::Finish() {
+  if (next_row_ != texture_.level_height[0]) {
+    throw Error(ErrorCode::InvalidInput, "a picture of " + std::to_string(texture_.level_height[0]) +
+                                             " rows of which only " + std::to_string(next_row_) + " are there");
+  }
+  return std::move(texture_);
+}
+
 TextureData BuildTexture(const Image& image, TextureRole role, bool mips, TexelBits bits) {
-  const bool sized = image.width >= 1 && image.height >= 1 && image.channels >= 1 && image.channels <= 4;
-  if (!sized || image.bytes.size() / image.PixelCount() != std::size_t(image.channels) * SizeOf(image.type)) {
-    throw Error(ErrorCode::InvalidInput,
-                "a picture of " + std::to_string(image.width) + " x " + std::to_string(image.height) + " pixels with " +
-                    std::to_string(image.channels) + " channels in " + std::to_string(image.bytes.size()) + " bytes");
-  }
-  TextureData texture;
-  texture.wide = bits == TexelBits::Mixed ? role == TextureRole::Color || image.type != ChannelType::U8
-                                          : bits == TexelBits::Sixteen;
-  LayOut(texture, image, mips);
-  const TexelReader reader(image, role);
-
-  // Level 0 is stored, and reduced to level 1, in one pass over the file's rows; two rows make one of level 1 (three at
-  // odd heights).
-  const int n = image.width, nh = image.height, m = Half(n), mh = Half(nh);
-  std::vector<Rgba> above;
-  if (texture.levels > 1) above.resize(std::size_t(m) * std::size_t(mh));
-  constexpr std::size_t kRows = 16;  // of level 1
-  ParallelFor(std::size_t(mh), kRows, [&](std::size_t begin, std::size_t end) {
-    std::vector<Rgba> buffer(std::size_t(n) * 3);
-    const Rgba* const rows[3] = {buffer.data(), buffer.data() + n, buffer.data() + 2 * std::size_t(n)};
-    for (std::size_t i = begin; i < end; ++i) {
-      const int taps = nh == 1 ? 1 : nh == 2 * mh ? 2 : 3;
-      for (int t = 0; t < taps; ++t)
-        reader.Row(static_cast<int>(2 * i) + t, buffer.data() + std::size_t(t) * std::size_t(n));
-      const int own =
-          static_cast<int>(i) + 1 == mh ? taps : std::min(taps, 2);  // the third row is the next one's first
-      for (int t = 0; t < own; ++t) StoreRow(texture, 0, static_cast<int>(2 * i) + t, rows[t]);
-      if (above.empty()) continue;
-      Rgba* out = above.data() + i * std::size_t(m);
-      HalveRow(rows, WeightsOf(static_cast<int>(i), nh, mh), n, m, out);
-      StoreRow(texture, 1, static_cast<int>(i), out);
-    }
-  });
-
-  for (int level = 2; level < texture.levels; ++level) {
-    const int pn = texture.level_width[level - 1], ph = texture.level_height[level - 1];
-    const int w = texture.level_width[level], h = texture.level_height[level];
-    std::vector<Rgba> next(std::size_t(w) * std::size_t(h));
-    for (int i = 0; i < h; ++i) {
-      const auto row = [&](int y) { return above.data() + std::size_t(std::min(y, ph - 1)) * std::size_t(pn); };
-      const Rgba* const rows[3] = {row(2 * i), row(2 * i + 1), row(2 * i + 2)};
-      HalveRow(rows, WeightsOf(i, ph, h), pn, w, next.data() + std::size_t(i) * std::size_t(w));
-      StoreRow(texture, level, i, next.data() + std::size_t(i) * std::size_t(w));
-    }
-    above.swap(next);
-  }
-  return texture;
+  TextureBuilder builder(image, image.height, role, mips, bits);
+  builder.Add(image);
+  return builder.Finish();
 }
 
 void SetTransform(const TextureRef& ref, TextureSlot& slot) {

@@ -59,23 +59,55 @@ HWY_INLINE AxisTaps<T> MakeTaps(Wrap wrap, T position, IntOf<T> size, MaskOf<T> 
   return taps;
 }
 
-template <int kChannels, class T>
-HWY_INLINE Vec4<T> FetchTexel(const TextureData& data, IntOf<T> texel) {
+// Where the texels of one bilinear footprint stand, and how far the position lies towards the second of each axis.
+template <class T>
+struct BilinearTap {
+  IntOf<T> texel[4];  // numbers in TextureData: top left, top right, bottom left, bottom right
+  T along_u, along_v;
+};
+
+// The mip level of each lane.
+template <class T>
+struct LevelPlace {
+  IntOf<T> width, height, offset, pitch;
+};
+template <class T>
+HWY_INLINE LevelPlace<T> PlaceOfLevel(const TextureData& data, IntOf<T> level) {
+  static_assert(kMaxTextureLevels == 16);
+  return {FetchOf16(data.level_width, level), FetchOf16(data.level_height, level), FetchOf16(data.level_offset, level),
+          FetchOf16(data.level_pitch, level)};
+}
+
+template <class T>
+HWY_INLINE BilinearTap<T> MakeBilinearTap(const Sampler& sampler, Vec2<T> uv, const LevelPlace<T>& level,
+                                          MaskOf<T> linear) {
+  const AxisTaps<T> u = MakeTaps(sampler.wrap_u, uv.x, level.width, linear);
+  const AxisTaps<T> v = MakeTaps(sampler.wrap_v, uv.y, level.height, linear);
+  const auto column = [](IntOf<T> x) HWY_ATTR { return ShiftLeft<4>(ShiftRightArithmetic<2>(x)) + (x & IntOf<T>(3)); };
+  const auto row = [&](IntOf<T> y) HWY_ATTR {
+    return level.offset + ShiftLeft<4>(ShiftRightArithmetic<2>(y) * level.pitch) + ShiftLeft<2>(y & IntOf<T>(3));
+  };
+  const IntOf<T> x0 = column(u.first), x1 = column(u.second), y0 = row(v.first), y1 = row(v.second);
+  return {{y0 + x0, y0 + x1, y1 + x0, y1 + x1}, u.fraction, v.fraction};
+}
+
+template <int kChannels, bool kWide, class T>
+HWY_INLINE Vec4<T> FetchTexel(const std::int32_t* words, IntOf<T> texel) {
   Vec4<T> c{};
-  const std::int32_t* words = data.words.data();
-  if (data.wide) {
-    const IntOf<T> index = texel + texel;
+  if constexpr (kWide) {
     const T scale(1.0f / 65535.0f);
-    if constexpr ((kChannels & (kR | kG)) != 0) {
-      const IntOf<T> rg = FetchInt(words, index);
-      if constexpr ((kChannels & kR) != 0) c.x = FromInt<T>(rg & IntOf<T>(0xFFFF)) * scale;
-      if constexpr ((kChannels & kG) != 0) c.y = FromInt<T>(ShiftRightLogical<16>(rg)) * scale;
+    IntOf<T> rg(0), ba(0);
+    if constexpr ((kChannels & (kR | kG)) != 0 && (kChannels & (kB | kA)) != 0) {
+      FetchIntPair(words, texel, rg, ba);
+    } else if constexpr ((kChannels & (kR | kG)) != 0) {
+      rg = FetchInt(words, texel + texel);
+    } else {
+      ba = FetchInt(words + 1, texel + texel);
     }
-    if constexpr ((kChannels & (kB | kA)) != 0) {
-      const IntOf<T> ba = FetchInt(words + 1, index);
-      if constexpr ((kChannels & kB) != 0) c.z = FromInt<T>(ba & IntOf<T>(0xFFFF)) * scale;
-      if constexpr ((kChannels & kA) != 0) c.w = FromInt<T>(ShiftRightLogical<16>(ba)) * scale;
-    }
+    if constexpr ((kChannels & kR) != 0) c.x = FromInt<T>(rg & IntOf<T>(0xFFFF)) * scale;
+    if constexpr ((kChannels & kG) != 0) c.y = FromInt<T>(ShiftRightLogical<16>(rg)) * scale;
+    if constexpr ((kChannels & kB) != 0) c.z = FromInt<T>(ba & IntOf<T>(0xFFFF)) * scale;
+    if constexpr ((kChannels & kA) != 0) c.w = FromInt<T>(ShiftRightLogical<16>(ba)) * scale;
   } else {
     const IntOf<T> rgba = FetchInt(words, texel);
     const T scale(1.0f / 255.0f);
@@ -87,23 +119,15 @@ HWY_INLINE Vec4<T> FetchTexel(const TextureData& data, IntOf<T> texel) {
   return c;
 }
 
-// One bilinear footprint in level `level` (per lane).
-template <int kChannels, class T>
-HWY_INLINE Vec4<T> SampleLevel(const TextureSlot& slot, Vec2<T> uv, IntOf<T> level, MaskOf<T> linear) {
-  const TextureData& data = *slot.data;
-  const AxisTaps<T> u = MakeTaps(slot.sampler.wrap_u, uv.x, FetchInt(data.level_width, level), linear);
-  const AxisTaps<T> v = MakeTaps(slot.sampler.wrap_v, uv.y, FetchInt(data.level_height, level), linear);
-  const IntOf<T> offset = FetchInt(data.level_offset, level), pitch = FetchInt(data.level_pitch, level);
-  const auto column = [](IntOf<T> x) HWY_ATTR { return ShiftLeft<4>(ShiftRightArithmetic<2>(x)) + (x & IntOf<T>(3)); };
-  const auto row = [&](IntOf<T> y) HWY_ATTR {
-    return offset + ShiftLeft<4>(ShiftRightArithmetic<2>(y) * pitch) + ShiftLeft<2>(y & IntOf<T>(3));
-  };
-  const IntOf<T> x0 = column(u.first), x1 = column(u.second), y0 = row(v.first), y1 = row(v.second);
-  const Vec4<T> c00 = FetchTexel<kChannels, T>(data, y0 + x0), c10 = FetchTexel<kChannels, T>(data, y0 + x1);
-  const Vec4<T> c01 = FetchTexel<kChannels, T>(data, y1 + x0), c11 = FetchTexel<kChannels, T>(data, y1 + x1);
+template <int kChannels, bool kWide, class T>
+HWY_INLINE Vec4<T> ReadBilinear(const std::int32_t* words, const BilinearTap<T>& tap) {
+  const Vec4<T> c00 = FetchTexel<kChannels, kWide, T>(words, tap.texel[0]);
+  const Vec4<T> c10 = FetchTexel<kChannels, kWide, T>(words, tap.texel[1]);
+  const Vec4<T> c01 = FetchTexel<kChannels, kWide, T>(words, tap.texel[2]);
+  const Vec4<T> c11 = FetchTexel<kChannels, kWide, T>(words, tap.texel[3]);
   const auto mix = [&](T a, T b, T c, T d) HWY_ATTR {
-    const T top = a + (b - a) * u.fraction, bottom = c + (d - c) * u.fraction;
-    return top + (bottom - top) * v.fraction;
+    const T top = a + (b - a) * tap.along_u, bottom = c + (d - c) * tap.along_u;
+    return top + (bottom - top) * tap.along_v;
   };
   Vec4<T> result{};
   if constexpr ((kChannels & kR) != 0) result.x = mix(c00.x, c10.x, c01.x, c11.x);
@@ -159,9 +183,33 @@ HWY_INLINE Footprint<T> MakeFootprint(const TextureSlot& slot, Vec2<T> duv_dx, V
   return f;
 }
 
-// Samples the texture of `slot` at interpolated coordinates `uv` with their derivatives over one pixel.
-template <int kChannels, class T>
-HWY_INLINE Vec4<T> SampleTexture(const TextureSlot& slot, Vec2<T> uv_in, Vec2<T> duv_dx_in, Vec2<T> duv_dy_in) {
+// All places that a sample reads: what textures of one size, sampled alike, have in common.
+template <class T>
+struct TextureTaps {
+  static constexpr int kMax = 16;
+  int count;        // taps along the major axis, of the lane that has most
+  bool two_levels;
+  T lane_count;     // taps of each lane
+  T blend;          // from the finer level to the coarser
+  BilinearTap<T> fine[kMax], coarse[kMax];
+};
+
+// Whether samples of both slots at the same texture coordinates read the same places.
+HWY_INLINE bool HaveSameTaps(const TextureSlot& a, const TextureSlot& b) {
+  const TextureData &p = *a.data, &q = *b.data;
+  const Sampler &f = a.sampler, &g = b.sampler;
+  bool same = a.uv_slot == b.uv_slot && a.max_anisotropy == b.max_anisotropy && p.levels == q.levels &&
+              p.level_width[0] == q.level_width[0] && p.level_height[0] == q.level_height[0] &&
+              f.wrap_u == g.wrap_u && f.wrap_v == g.wrap_v && f.magnification == g.magnification &&
+              f.minification == g.minification && f.mip == g.mip;
+  for (int i = 0; i < 6; ++i) same = same && a.transform[i] == b.transform[i];
+  return same;
+}
+
+// The places that a sample of `slot` reads at interpolated coordinates with their derivatives over one pixel.
+template <class T>
+HWY_INLINE void MakeTextureTaps(const TextureSlot& slot, Vec2<T> uv_in, Vec2<T> duv_dx_in, Vec2<T> duv_dy_in,
+                                TextureTaps<T>& out) {
   const float* m = slot.transform;
   const auto rotate = [&](Vec2<T> d) HWY_ATTR {
     return Vec2<T>{T(m[0]) * d.x + T(m[1]) * d.y, T(m[3]) * d.x + T(m[4]) * d.y};
@@ -169,40 +217,72 @@ HWY_INLINE Vec4<T> SampleTexture(const TextureSlot& slot, Vec2<T> uv_in, Vec2<T>
   const Vec2<T> turned = rotate(uv_in);
   const Vec2<T> uv{turned.x + T(m[2]), turned.y + T(m[5])};
   const Sampler& sampler = slot.sampler;
+  const TextureData& data = *slot.data;
   const MaskOf<T> yes(true), no(false);
-  const bool one_filter = sampler.magnification == sampler.minification;
-  if (one_filter && slot.data->levels == 1) {
-    return SampleLevel<kChannels>(slot, uv, IntOf<T>(0), sampler.magnification == Filter::Linear ? yes : no);
+  const auto read_level_0 = [&](MaskOf<T> linear) HWY_ATTR {
+    out.count = 1;
+    out.two_levels = false;
+    out.fine[0] = MakeBilinearTap(sampler, uv, PlaceOfLevel<T>(data, IntOf<T>(0)), linear);
+  };
+  if (sampler.magnification == sampler.minification && data.levels == 1) {
+    return read_level_0(sampler.magnification == Filter::Linear ? yes : no);
   }
 
   const Footprint<T> footprint = MakeFootprint(slot, rotate(duv_dx_in), rotate(duv_dy_in));
-  const T max_level(static_cast<float>(slot.data->levels - 1));
+  const T max_level(static_cast<float>(data.levels - 1));
   const T lod = Clamp(footprint.lod, T(0.0f), max_level);
   const MaskOf<T> magnified = footprint.lod <= T(0.0f), minified = !magnified;
   const MaskOf<T> linear = (magnified & (sampler.magnification == Filter::Linear ? yes : no)) |
                            (minified & (sampler.minification == Filter::Linear ? yes : no));
-  if (sampler.mip == MipFilter::None) return SampleLevel<kChannels>(slot, uv, IntOf<T>(0), linear);
+  if (sampler.mip == MipFilter::None) return read_level_0(linear);
   const bool nearest_level = sampler.mip == MipFilter::Nearest;
-  const T base = Floor(nearest_level ? lod + T(0.5f) : lod), blend = nearest_level ? T(0.0f) : lod - base;
-  const IntOf<T> fine = TruncateToInt(base), coarse = TruncateToInt(Min(base + T(1.0f), max_level));
-  const bool one_level = !Any(blend > T(0.0f));
-  const auto trilinear = [&](Vec2<T> at) HWY_ATTR {
-    const Vec4<T> near = SampleLevel<kChannels>(slot, at, fine, linear);
-    if (one_level) return near;
-    const Vec4<T> far = SampleLevel<kChannels>(slot, at, coarse, linear);
-    return near * (T(1.0f) - blend) + far * blend;
-  };
-  if (!Any(footprint.taps > T(1.0f))) return trilinear(uv);
-  Vec4<T> sum{};
-  for (int i = 0; i < 16; ++i) {
+  const T base = Floor(nearest_level ? lod + T(0.5f) : lod);
+  out.blend = nearest_level ? T(0.0f) : lod - base;
+  out.two_levels = Any(out.blend > T(0.0f));
+  out.lane_count = footprint.taps;
+  const LevelPlace<T> fine = PlaceOfLevel<T>(data, TruncateToInt(base));
+  const LevelPlace<T> coarse = PlaceOfLevel<T>(data, TruncateToInt(Min(base + T(1.0f), max_level)));
+  for (out.count = 0; out.count < TextureTaps<T>::kMax; ++out.count) {
+    const int i = out.count;
     const T tap(static_cast<float>(i));
-    const MaskOf<T> active = tap < footprint.taps;
-    if (!Any(active)) break;
+    if (!Any(tap < footprint.taps)) break;
     const T along = (tap + T(0.5f)) / footprint.taps - T(0.5f);
-    const Vec4<T> c = trilinear({uv.x + footprint.major.x * along, uv.y + footprint.major.y * along});
-    sum = sum + c * Select(active, T(1.0f), T(0.0f));
+    const Vec2<T> at{uv.x + footprint.major.x * along, uv.y + footprint.major.y * along};
+    out.fine[i] = MakeBilinearTap(sampler, at, fine, linear);
+    if (out.two_levels) out.coarse[i] = MakeBilinearTap(sampler, at, coarse, linear);
   }
-  return sum * (T(1.0f) / footprint.taps);
+}
+
+template <int kChannels, bool kWide, class T>
+HWY_INLINE Vec4<T> ReadTaps(const std::int32_t* words, const TextureTaps<T>& taps) {
+  const auto trilinear = [&](int i) HWY_ATTR {
+    const Vec4<T> near = ReadBilinear<kChannels, kWide>(words, taps.fine[i]);
+    if (!taps.two_levels) return near;
+    const Vec4<T> far = ReadBilinear<kChannels, kWide>(words, taps.coarse[i]);
+    return near * (T(1.0f) - taps.blend) + far * taps.blend;
+  };
+  if (taps.count == 1) return trilinear(0);
+  Vec4<T> sum{};
+  for (int i = 0; i < taps.count; ++i) {
+    const MaskOf<T> active = T(static_cast<float>(i)) < taps.lane_count;
+    sum = sum + trilinear(i) * Select(active, T(1.0f), T(0.0f));
+  }
+  return sum * (T(1.0f) / taps.lane_count);
+}
+
+// What `slot` shows at places that were made for it, or for one that has the same.
+template <int kChannels, class T>
+HWY_INLINE Vec4<T> ReadTexture(const TextureSlot& slot, const TextureTaps<T>& taps) {
+  const std::int32_t* words = slot.data->words.data();
+  return slot.data->wide ? ReadTaps<kChannels, true>(words, taps) : ReadTaps<kChannels, false>(words, taps);
+}
+
+// Samples the texture of `slot` at interpolated coordinates `uv` with their derivatives over one pixel.
+template <int kChannels, class T>
+HWY_INLINE Vec4<T> SampleTexture(const TextureSlot& slot, Vec2<T> uv, Vec2<T> duv_dx, Vec2<T> duv_dy) {
+  TextureTaps<T> taps;
+  MakeTextureTaps(slot, uv, duv_dx, duv_dy, taps);
+  return ReadTexture<kChannels>(slot, taps);
 }
 
 }  // namespace HWY_NAMESPACE

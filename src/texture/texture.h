@@ -3,8 +3,8 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
+#include "base/pages.h"
 #include "facet/image.h"
 #include "facet/render.h"
 #include "facet/scene.h"
@@ -29,9 +29,14 @@ struct TextureData {
   std::int32_t level_pitch[kMaxTextureLevels] = {};   // squares in a row
   std::int32_t level_width[kMaxTextureLevels] = {};
   std::int32_t level_height[kMaxTextureLevels] = {};
-  std::vector<std::int32_t> words;  // little-endian channels: R in the low bits
+  PageVector<std::int32_t> words;  // little-endian channels: R in the low bits
 
   std::size_t Bytes() const { return words.size() * sizeof(words[0]); }
+  // Where row y of a level begins in `words`.
+  std::size_t WordOf(int level, int y) const {
+    const std::size_t squares = std::size_t(y / 4) * std::size_t(level_pitch[level]);
+    return (std::size_t(level_offset[level]) + squares * 16 + std::size_t(y % 4) * 4) * (wide ? 2 : 1);
+  }
 };
 
 // Builds a texture from a decoded picture. Each level halves the one above, rounding down; a texel is the mean, in

@@ -1,5 +1,8 @@
 #include "vertex/transform_vertices.h"
 
+#include <algorithm>
+#include <cstring>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "vertex/transform_vertices.cc"
 #include "hwy/foreach_target.h"
@@ -13,9 +16,8 @@ namespace facet {
 namespace HWY_NAMESPACE {
 
 void TransformVerticesKernel(const FrameView& view, const FrameDrawable& drawable, std::size_t begin, std::size_t end,
-                             VertexBuffer& out) {
+                             ScreenVertex* out) {
   const float* positions = &drawable.geometry->positions[0].x;
-  const std::size_t base = drawable.vertex_base;
   const std::size_t lanes = LaneCount();
   const glm::vec4 rx = drawable.screen_from_local[0], ry = drawable.screen_from_local[1],
                   rd = drawable.screen_from_local[2];
@@ -29,15 +31,20 @@ void TransformVerticesKernel(const FrameView& view, const FrameDrawable& drawabl
   const Float guard_bottom(static_cast<float>(view.height) * 0.5f + static_cast<float>(kGuardBand));
   // Vertices that will be clipped have no place on the screen; this keeps their conversion to integers defined.
   const Float limit(static_cast<float>(4 * kGuardBand * kSubpixelScale));
-  const Int last(static_cast<std::int32_t>(end - 1));
 
-  alignas(64) std::int32_t x_out[kMaxLanes], y_out[kMaxLanes], code_out[kMaxLanes];
-  alignas(64) float depth_out[kMaxLanes];
+  alignas(64) float tail[3 * kMaxLanes] = {};
+  alignas(64) std::int32_t screen[4 * kMaxLanes];
+  static_assert(sizeof(ScreenVertex) == 4 * sizeof(std::int32_t));
   for (std::size_t i = begin; i < end; i += lanes) {
-    const Int index = Min(Int(static_cast<std::int32_t>(i)) + LaneIndex(), last) * Int(3);
-    const Float px = Gather(positions, index) - Float(c.x);
-    const Float py = Gather(positions + 1, index) - Float(c.y);
-    const Float pz = Gather(positions + 2, index) - Float(c.z);
+    const std::size_t count = std::min(lanes, end - i);
+    const float* from = positions + 3 * i;
+    if (count < lanes) {
+      std::copy_n(from, 3 * count, tail);
+      from = tail;
+    }
+    Float::Raw raw_x, raw_y, raw_z;
+    hn::LoadInterleaved3(FloatTag(), from, raw_x, raw_y, raw_z);
+    const Float px = Float(raw_x) - Float(c.x), py = Float(raw_y) - Float(c.y), pz = Float(raw_z) - Float(c.z);
     const auto row = [&](const glm::vec4& r) HWY_ATTR {
       return ((Float(r.x) * px + Float(r.y) * py) + Float(r.z) * pz) + Float(r.w);
     };
@@ -61,16 +68,11 @@ void TransformVerticesKernel(const FrameView& view, const FrameDrawable& drawabl
     const Float scale(static_cast<float>(kSubpixelScale));
     const Float sx = Clamp(RoundEven(x / w * scale), -limit, limit);
     const Float sy = Clamp(RoundEven(y / w * scale), -limit, limit);
-    Store(TruncateToInt(Select(sx == sx, sx, Float(0.0f))), x_out);
-    Store(TruncateToInt(Select(sy == sy, sy, Float(0.0f))), y_out);
-    Store(view.perspective ? Float(1.0f) / distance : -distance, depth_out);
-    Store(code, code_out);
-    for (std::size_t k = 0; k < lanes && i + k < end; ++k) {
-      out.x_fx8[base + i + k] = x_out[k];
-      out.y_fx8[base + i + k] = y_out[k];
-      out.depth[base + i + k] = depth_out[k];
-      out.outcode[base + i + k] = code_out[k];
-    }
+    const Float depth = view.perspective ? Float(1.0f) / distance : -distance;
+    hn::StoreInterleaved4(TruncateToInt(Select(sx == sx, sx, Float(0.0f))).raw,
+                          TruncateToInt(Select(sy == sy, sy, Float(0.0f))).raw, BitsOf(depth).raw, code.raw, IntTag(),
+                          screen);
+    std::memcpy(out + i, screen, count * sizeof(ScreenVertex));
   }
 }
 
@@ -85,7 +87,8 @@ FACET_EXPORT(TransformVerticesKernel);
 
 void TransformVertices(const FrameView& view, const FrameDrawable& drawable, std::size_t begin, std::size_t end,
                        VertexBuffer& out) {
-  if (begin < end) FACET_DISPATCH(TransformVerticesKernel)(view, drawable, begin, end, out);
+  if (begin == end) return;
+  FACET_DISPATCH(TransformVerticesKernel)(view, drawable, begin, end, out.data() + drawable.vertex_base);
 }
 
 }  // namespace facet

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <set>
 #include <tuple>
 
@@ -115,6 +116,49 @@ TEST(Bin, NothingForRecordsOutsideThePicture) {
   BinChunk(grid, chunk);
   EXPECT_TRUE(chunk.entries.empty());
   EXPECT_TRUE(chunk.tiles.empty());
+}
+
+// As many tiles as there can be: their numbers have several digits in the sort.
+TEST(Bin, TilesAscendWhereThereAreMillions) {
+  Random random(35);
+  const TileGrid grid = MakeTileGrid(16384, 16384, 8);
+  for (const int count : {1, 3, 40, 5000}) {
+    TriangleChunk chunk;
+    for (int i = 0; i < count; ++i) {
+      const int x = random.Int(0, 16380 * 256), y = random.Int(0, i % 2 == 0 ? 1 : 2047) * 2048 + 5;  // one row of tiles
+      chunk.records.push_back(MakeRecord({x, y}, {x + 300, y}, {x, y + 300}));
+    }
+    BinChunk(grid, chunk);
+    std::map<std::uint32_t, std::vector<std::uint32_t>> expected;
+    for (std::uint32_t i = 0; i < chunk.records.size(); ++i) {
+      const TriangleRecord& r = chunk.records[i];
+      for (int x = r.x_fx8[0] / 2048; x <= (r.x_fx8[0] + 300) / 2048; ++x) {
+        expected[static_cast<std::uint32_t>(r.y_fx8[0] / 2048 * grid.columns + x)].push_back(i);
+      }
+    }
+    std::map<std::uint32_t, std::vector<std::uint32_t>> got;
+    for (std::size_t t = 0; t < chunk.tiles.size(); ++t) {
+      if (t > 0) {
+        EXPECT_LT(chunk.tiles[t - 1], chunk.tiles[t]);
+      }
+      got[chunk.tiles[t]].assign(chunk.entries.begin() + chunk.begin[t], chunk.entries.begin() + chunk.begin[t + 1]);
+    }
+    EXPECT_TRUE(got == expected) << count;
+  }
+}
+
+// What a chunk held before is forgotten.
+TEST(Bin, ChunksAreFilledAnew) {
+  const TileGrid grid = MakeTileGrid(100, 100, 16);
+  TriangleChunk once, again;
+  again.records = {MakeRecord({0, 0}, {9000, 0}, {0, 9000}), MakeRecord({0, 0}, {900, 0}, {0, 900})};
+  BinChunk(grid, again);
+  once.records = again.records = {MakeRecord({5000, 5000}, {5900, 5000}, {5000, 5900})};
+  BinChunk(grid, once);
+  BinChunk(grid, again);
+  EXPECT_EQ(again.tiles, once.tiles);
+  EXPECT_EQ(again.begin, once.begin);
+  EXPECT_EQ(again.entries, once.entries);
 }
 
 TEST(Bin, EmptyChunk) {

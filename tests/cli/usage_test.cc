@@ -16,6 +16,7 @@ TEST(FacetHelp, IsOnStandardOutput) {
                                                                                          {"render", "-h"},
                                                                                          {"info", "--help"},
                                                                                          {"hash", "--help"},
+                                                                                         {"explain", "--help"},
                                                                                          {"verify", "--help"},
                                                                                          {"diff", "--help"}}) {
     const Outcome run = RunFacet(arguments);
@@ -49,6 +50,7 @@ TEST(FacetHelp, NamesEveryOptionAsTheManualDoes) {
                              "--animation",
                              "--time",
                              "--variant",
+                             "--without",
                              "--bits",
                              "--max-anisotropy",
                              "--mip-filter",

@@ -251,12 +251,12 @@ TEST(Clip, VerticesThatNeedNoClippingKeepTheirPlace) {
     const Assembled out = Assemble(view, drawable, 8);
     if (out.chunk.records.empty()) continue;
     for (std::size_t v = 0; v < 2; ++v) {
-      if ((out.vertices.outcode[v] & kOutClip) != 0) continue;
+      if ((out.vertices[v].outcode & kOutClip) != 0) continue;
       ++found;
       bool kept = false;
       for (const TriangleRecord& r : out.chunk.records) {
         for (int k = 0; k < 3; ++k)
-          kept = kept || (r.x_fx8[k] == out.vertices.x_fx8[v] && r.y_fx8[k] == out.vertices.y_fx8[v]);
+          kept = kept || (r.x_fx8[k] == out.vertices[v].x_fx8 && r.y_fx8[k] == out.vertices[v].y_fx8);
       }
       EXPECT_TRUE(kept) << "seed 46, triangle " << i << ", vertex " << v;
     }

@@ -64,8 +64,7 @@ struct Assembled {
 inline Assembled Assemble(const FrameView& view, const FrameDrawable& drawable, int samples) {
   Assembled out;
   const std::size_t n = drawable.geometry->positions.size();
-  out.vertices.x_fx8.resize(n), out.vertices.y_fx8.resize(n), out.vertices.depth.resize(n),
-      out.vertices.outcode.resize(n);
+  out.vertices.resize(n);
   TransformVertices(view, drawable, 0, n, out.vertices);
   out.chunk.primitive_count = drawable.primitive_count;
   AssembleChunk(view, drawable, out.vertices, samples, out.chunk);

@@ -15,6 +15,7 @@
 
 #include "facet/error.h"
 #include "facet/image.h"
+#include "image/codec.h"
 
 namespace facet {
 
@@ -96,6 +97,25 @@ inline void ExpectSame(const Image& a, const Image& b) {
 }
 
 // FNV-1a.
+// The picture that DecodeImageRows gives in pieces.
+inline Image Joined(const std::vector<std::byte>& file, int* pieces = nullptr) {
+  Image whole;
+  int count = 0;
+  DecodeImageRows(file, "picture", [&](const Image& rows, int height) {
+    if (count++ == 0) {
+      whole = rows;
+    } else {
+      EXPECT_TRUE(rows.width == whole.width && rows.channels == whole.channels && rows.type == whole.type &&
+                  rows.encoding == whole.encoding);
+      whole.bytes.insert(whole.bytes.end(), rows.bytes.begin(), rows.bytes.end());
+      whole.height += rows.height;
+    }
+    EXPECT_LE(whole.height, height);
+  });
+  if (pieces != nullptr) *pieces = count;
+  return whole;
+}
+
 inline std::uint64_t HashOf(const std::vector<std::byte>& bytes) {
   std::uint64_t hash = 14695981039346656037ull;
   for (const std::byte b : bytes) hash = (hash ^ static_cast<std::uint64_t>(b)) * 1099511628211ull;

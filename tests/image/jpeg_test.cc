@@ -96,6 +96,19 @@ TEST(Jpeg, ProgressiveAndBaselineOfTheSameCoefficientsAreEqual) {
   ExpectSame(DecodeImage(MakeJpeg(settings), "progressive"), baseline);
 }
 
+TEST(Jpeg, PiecesMakeTheWhole) {
+  for (const bool progressive : {false, true}) {
+    Settings settings;
+    settings.progressive = progressive;
+    settings.width = 75;
+    settings.height = 201;
+    const auto file = MakeJpeg(settings);
+    int pieces = 0;
+    ExpectSame(Joined(file, &pieces), DecodeImage(file, "whole"));
+    EXPECT_EQ(pieces, 4);
+  }
+}
+
 TEST(Jpeg, GreyStaysGrey) {
   Settings settings;
   settings.space = JCS_GRAYSCALE;

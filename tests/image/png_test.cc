@@ -25,6 +25,17 @@ TEST(Png, RoundTripsEveryFormThatItHolds) {
   }
 }
 
+TEST(Png, PiecesMakeTheWhole) {
+  for (const ChannelType type : {ChannelType::U8, ChannelType::U16}) {
+    for (int height : {1, 64, 65, 200}) {
+      const Image image = MakePattern(9, height, 3, type);
+      int pieces = 0;
+      ExpectSame(Joined(EncodePng(image), &pieces), image);
+      EXPECT_EQ(pieces, (height + 63) / 64);
+    }
+  }
+}
+
 TEST(Png, BytesAreDeterministicAndCarryText) {
   const Image image = MakePattern(20, 20, 4, ChannelType::U8);
   const std::vector<std::array<std::string, 2>> text = {{"Software", "facet"}, {"Author", "J\xC3\xBCrgen"}};

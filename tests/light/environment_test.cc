@@ -190,7 +190,7 @@ TEST(Environment, PrefilteringAgreesWithBruteForce) {
     return 0.2 + lamp({0.6, 0.0, 0.8}, 400.0, 8.0) + lamp({0.0, 1.0, 0.0}, 30.0, 3.0) +
            lamp({-0.8, -0.6, 0.0}, 150.0, 5.0);
   };
-  const auto map = PrefilterEnvironment(Paint(1024, 512, radiance));
+  const auto map = PrefilterEnvironment(Paint(1024, 512, radiance), {.samples = 48});
   for (int level = 1; level < EnvironmentMap::kLevels; ++level) {
     const double roughness = double(level) / (EnvironmentMap::kLevels - 1);
     double error2 = 0.0, total2 = 0.0, worst = 0.0;
@@ -207,6 +207,26 @@ TEST(Environment, PrefilteringAgreesWithBruteForce) {
     }
     EXPECT_LT(std::sqrt(error2 / total2), 0.03) << "level " << level;
     EXPECT_LT(worst, 0.05) << "level " << level;
+  }
+}
+
+// A sun anywhere in a cell of the coarse source shines from its own place: up to a factor (the octahedral map keeps the
+// energy of a single pixel to some percent only) its irradiance is the clamped cosine.
+TEST(Environment, RoughLevelsKnowWhereASunStands) {
+  for (const auto& [x, y] : {std::pair{700, 150}, {333, 201}, {12, 260}, {509, 330}, {900, 77}}) {
+    Image image = Paint(1024, 512, [](Vec3<double>) { return 0.0; });
+    for (int c = 0; c < 3; ++c) image.As<float>()[(std::size_t(y) * 1024 + std::size_t(x)) * 3 + std::size_t(c)] = 1e6f;
+    const auto map = PrefilterEnvironment(image);
+    const Vec3<double> sun = DirectionOfPixel(x, y, 1024, 512);
+    double product = 0.0, cosine2 = 0.0, found2 = 0.0;
+    for (Vec3<double> n : SomeDirections(300)) {
+      const double cosine = std::max(Dot(n, sun), 0.0), found = lanes::IrradianceOverPi(*map, n).x;
+      product += cosine * found;
+      cosine2 += cosine * cosine;
+      found2 += found * found;
+    }
+    // The sine of the angle between the two, as vectors of 306 numbers.
+    EXPECT_LT(std::sqrt(1.0 - product * product / (cosine2 * found2)), 0.015) << x << " " << y;
   }
 }
 

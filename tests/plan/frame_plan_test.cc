@@ -45,7 +45,8 @@ TEST(FramePlan, WhatIsLeftOutHasAReason) {
   EXPECT_TRUE(plan.environment_light);
   EXPECT_FALSE(LeftOut(plan, "environment light"));
   for (const char* what : {"environment background", "punctual lights", "alpha test", "blending", "tangents",
-                           "vertex colours", "textures"}) {
+                           "vertex colours", "base colour textures", "metallic-roughness textures", "normal textures",
+                           "occlusion textures", "emission", "skins", "morph targets"}) {
     EXPECT_TRUE(LeftOut(plan, what)) << what;
   }
 }
@@ -87,7 +88,7 @@ TEST(FramePlan, EachFeatureIsThereWhenSomethingNeedsIt) {
   const FramePlan normals =
       with([](Scene& s, RenderSettings&) { s.materials[0].normal_texture = Ref(WhiteTexture(s, 1)); });
   EXPECT_FALSE(LeftOut(normals, "tangents"));
-  EXPECT_FALSE(LeftOut(normals, "textures"));
+  EXPECT_FALSE(LeftOut(normals, "normal textures"));
   EXPECT_FALSE(LeftOut(with([](Scene& s, RenderSettings&) {
                          Primitive& p = s.meshes[0].primitives[0];
                          p.colors.assign(p.positions.size(), glm::vec4(1.0f));

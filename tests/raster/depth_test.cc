@@ -1,6 +1,7 @@
 // Depth, visibility, and that the ways to write a sample agree.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -264,7 +265,11 @@ TEST(Fragments, VisibleOnesPartitionTheSamples) {
           ASSERT_LT(y, tile.height);
           ASSERT_NE(fragments.samples[i], 0);
           if (i > 0) {
-            ASSERT_GE(fragments.pixel[i], fragments.pixel[i - 1]) << "row by row";
+            const auto place = [&](std::size_t k) {  // by squares of 4 x 4 pixels
+              const int px = fragments.pixel[k] % tile_size, py = fragments.pixel[k] / tile_size;
+              return std::array{py / 4, px / 4, py % 4, px % 4};
+            };
+            ASSERT_GE(place(i), place(i - 1));
           }
           for (std::size_t k = i; k-- > 0 && fragments.pixel[k] == fragments.pixel[i];) {
             ASSERT_NE(fragments.record[k], fragments.record[i]) << "one fragment for each pixel and triangle";

@@ -6,6 +6,7 @@
 #include "clip/geometry_helpers.h"
 #include "raster/raster_helpers.h"
 #include "render/frame_view.h"
+#include "vertex/outside_view.h"
 
 namespace facet::test {
 namespace {
@@ -89,11 +90,11 @@ void ExpectAccurate(Shot& s) {
     const Expected want = Project(s, s.mesh.positions[i]);
     if (want.x < 0 || want.x > s.width || want.y < 0 || want.y > s.height || want.distance < 0.2) continue;
     // Half a unit of the grid for the snapping, and half for float.
-    EXPECT_NEAR(out.x_fx8[i] / 256.0, want.x, 1.0 / 256) << "vertex " << i;
-    EXPECT_NEAR(out.y_fx8[i] / 256.0, want.y, 1.0 / 256) << "vertex " << i;
+    EXPECT_NEAR(out[i].x_fx8 / 256.0, want.x, 1.0 / 256) << "vertex " << i;
+    EXPECT_NEAR(out[i].y_fx8 / 256.0, want.y, 1.0 / 256) << "vertex " << i;
     const double depth = s.camera.lens.orthographic ? -want.distance : 1.0 / want.distance;
-    EXPECT_NEAR(out.depth[i], depth, std::fabs(depth) * 0x1p-20) << "vertex " << i;
-    EXPECT_EQ(out.outcode[i], 0) << "vertex " << i;
+    EXPECT_NEAR(out[i].depth, depth, std::fabs(depth) * 0x1p-20) << "vertex " << i;
+    EXPECT_EQ(out[i].outcode, 0) << "vertex " << i;
     ++seen;
   }
   EXPECT_GT(seen, 10) << "the picture shows nothing";
@@ -119,9 +120,11 @@ TEST(Vertex, FarScenesLookTheSame) {
     for (glm::dmat4* m : {&exact.camera.world_from_camera, &exact.drawable.world_from_mesh})
       (*m)[3] += glm::dvec4(0x1p20, -0x1p21, 0x1p20, 0.0);
     const VertexBuffer far = Transform(exact);
-    EXPECT_EQ(near_origin.x_fx8, far.x_fx8);
-    EXPECT_EQ(near_origin.y_fx8, far.y_fx8);
-    EXPECT_EQ(near_origin.depth, far.depth);
+    for (std::size_t i = 0; i < far.size(); ++i) {
+      EXPECT_EQ(near_origin[i].x_fx8, far[i].x_fx8) << "vertex " << i;
+      EXPECT_EQ(near_origin[i].y_fx8, far[i].y_fx8) << "vertex " << i;
+      EXPECT_EQ(near_origin[i].depth, far[i].depth) << "vertex " << i;
+    }
     Shot rounded = s;
     for (glm::dmat4* m : {&rounded.camera.world_from_camera, &rounded.drawable.world_from_mesh})
       (*m)[3] += glm::dvec4(1e6, 1e6 / 3, -1e6, 0.0);
@@ -151,11 +154,11 @@ TEST(Vertex, OneBadVertexLeavesTheOthersInPlace) {
       int moved = 0;
       for (std::size_t i = 0; i < s.mesh.positions.size(); ++i) {
         if (i == which) {
-          EXPECT_NE(after.outcode[i] & kOutNotFinite, 0);
+          EXPECT_NE(after[i].outcode & kOutNotFinite, 0);
           continue;
         }
-        moved += after.outcode[i] != before.outcode[i] || std::abs(after.x_fx8[i] - before.x_fx8[i]) > 1 ||
-                 std::abs(after.y_fx8[i] - before.y_fx8[i]) > 1;
+        moved += after[i].outcode != before[i].outcode || std::abs(after[i].x_fx8 - before[i].x_fx8) > 1 ||
+                 std::abs(after[i].y_fx8 - before[i].y_fx8) > 1;
       }
       EXPECT_EQ(moved, 0) << "others are moved by " << bad << " at " << which;
     }
@@ -180,7 +183,7 @@ TEST(Vertex, OutcodesNameThePlanes) {
     const double slack = 1e-5 * (std::fabs(x) + std::fabs(y) + kGuardBand * std::fabs(d));
     const auto check = [&](double inside, OutcodeBit bit, double epsilon) {
       if (std::fabs(inside) < epsilon) return;
-      EXPECT_EQ((out.outcode[i] & bit) != 0, inside < 0) << "seed 222, vertex " << i << ", bit " << bit;
+      EXPECT_EQ((out[i].outcode & bit) != 0, inside < 0) << "seed 222, vertex " << i << ", bit " << bit;
     };
     check(d - 0.5, kOutNear, 1e-5);
     check(50.0 - d, kOutFar, 1e-4);
@@ -192,7 +195,7 @@ TEST(Vertex, OutcodesNameThePlanes) {
     check(200.0 * d - x, kOutRight, slack);
     check(y, kOutTop, slack);
     check(100.0 * d - y, kOutBottom, slack);
-    seen |= out.outcode[i];
+    seen |= out[i].outcode;
   }
   EXPECT_EQ(seen, 1023) << "not all planes were tried";
 }
@@ -213,20 +216,61 @@ TEST(Vertex, TargetsAndRangesAgree) {
     for (const auto& [begin, end] :
          {std::pair<std::size_t, std::size_t>{0, n}, {0, 1}, {5, 6}, {3, 20}, {n - 1, n}, {50, 50}}) {
       VertexBuffer out;
-      out.x_fx8.assign(n + 40, -77), out.y_fx8.assign(n + 40, -77), out.depth.assign(n + 40, -77.0f),
-          out.outcode.assign(n + 40, -77);
+      ScreenVertex untouched;
+      untouched.x_fx8 = untouched.y_fx8 = untouched.outcode = -77, untouched.depth = -77.0f;
+      out.assign(n + 40, untouched);
       TransformVertices(view, drawable, begin, end, out);
       for (std::size_t i = 0; i < n + 40; ++i) {
         const bool inside = i >= 13 + begin && i < 13 + end;
-        EXPECT_EQ(out.x_fx8[i], inside ? reference.x_fx8[i - 13] : -77) << TargetName(target) << " " << i;
-        EXPECT_EQ(out.y_fx8[i], inside ? reference.y_fx8[i - 13] : -77) << TargetName(target) << " " << i;
-        EXPECT_EQ(out.outcode[i], inside ? reference.outcode[i - 13] : -77) << TargetName(target) << " " << i;
-        const float want = inside ? reference.depth[i - 13] : -77.0f;
-        EXPECT_TRUE(out.depth[i] == want || (std::isnan(out.depth[i]) && std::isnan(want)))
+        EXPECT_EQ(out[i].x_fx8, inside ? reference[i - 13].x_fx8 : -77) << TargetName(target) << " " << i;
+        EXPECT_EQ(out[i].y_fx8, inside ? reference[i - 13].y_fx8 : -77) << TargetName(target) << " " << i;
+        EXPECT_EQ(out[i].outcode, inside ? reference[i - 13].outcode : -77) << TargetName(target) << " " << i;
+        const float want = inside ? reference[i - 13].depth : -77.0f;
+        EXPECT_TRUE(out[i].depth == want || (std::isnan(out[i].depth) && std::isnan(want)))
             << TargetName(target) << " " << i;
       }
     }
   }
+}
+
+// What is left out as a whole is what the vertex stage finds beyond one side, vertex by vertex; and nearly all of that is.
+TEST(OutsideView, AgreesWithTheVertices) {
+  Random random(223);
+  int outside = 0, missed = 0;
+  for (int round = 0; round < 2000; ++round) {
+    SCOPED_TRACE("seed 223, round " + std::to_string(round));
+    Shot s = RandomShot(random, round % 3 == 0);
+    s.camera.lens.zfar = round % 4 == 0 ? random.Real(2.0, 20.0) : s.camera.lens.zfar;
+    const double far = round % 5 == 0 ? 1e6 : 0.0;
+    const glm::dvec3 move(random.Real(-9, 9), random.Real(-9, 9), random.Real(-9, 9));
+    s.drawable.world_from_mesh[3] += glm::dvec4(move + far, 0.0);
+    s.camera.world_from_camera[3] += glm::dvec4(glm::dvec3(far), 0.0);
+    // The corners of the box are vertices.
+    const glm::vec3 centre(random.Real(-1, 1), random.Real(-1, 1), random.Real(-1, 1));
+    const glm::vec3 half(random.Real(0, 1), random.Real(0, 1), random.Real(0, 1));
+    Bounds box;
+    s.mesh.positions.clear();
+    for (int i = 0; i < 40; ++i) {
+      const auto part = [&](int bit) { return i < 8 ? (i & bit ? 1.0 : -1.0) : random.Real(-1, 1); };
+      const glm::vec3 p = centre + half * glm::vec3(part(1), part(2), part(4));
+      s.mesh.positions.push_back(p);
+      box.low = box.empty ? glm::dvec3(p) : glm::min(box.low, glm::dvec3(p));
+      box.high = box.empty ? glm::dvec3(p) : glm::max(box.high, glm::dvec3(p));
+      box.empty = false;
+    }
+    std::int32_t common = kOutReject;
+    for (const ScreenVertex& v : Transform(s)) common &= v.outcode;
+    s.drawable.geometry = &s.mesh;
+    const FrameView view = MakeFrameView(s.camera, s.width, s.height);
+    const bool left_out = OutsideView(view, MakeFrameDrawable(view, s.drawable), box);
+    if (left_out) {
+      EXPECT_NE(common & (kOutNear | kOutFar | kOutLeft | kOutRight | kOutTop | kOutBottom), 0);
+    }
+    outside += left_out;
+    missed += !left_out && common != 0;
+  }
+  EXPECT_GT(outside, 300) << "the test shows nothing";
+  EXPECT_LT(missed, 10);
 }
 
 TEST(FrameView, DirectionThroughAPixelIsWhereItsPointsLie) {

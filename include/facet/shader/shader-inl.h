@@ -13,6 +13,9 @@
 // which compiles it for every instruction set and gives the program `facet::MakeToon()`, declared in "toon.shader.h":
 // a std::unique_ptr<const facet::FragmentShader> for RenderSettings::shader.
 //
+// A functor that reads no light, or also that of unlit materials, says so: `static constexpr LightUse kLight =
+// LightUse::None;` (facet/shader.h). The frame then prepares no environment that nobody reads.
+//
 // T is Float, a packet of lanes: arithmetic, comparison, Select, Min, Max, Clamp, Sqrt and the functions of
 // elementary-inl.h work on it; `if` does not. The file may be included many times: it has no include guard of its own
 // and defines nothing outside FACET_SHADER_BEGIN and FACET_SHADER_END.
@@ -24,6 +27,7 @@
 #define FACET_SHADER_SHADER_INL_H_
 #endif
 
+#include "facet/shader.h"
 #include "facet/shader/elementary-inl.h"
 #include "facet/shader/surface-inl.h"
 #include "light/lighting-inl.h"

@@ -1,0 +1,27 @@
+#include "cli/explain_command.h"
+
+#include <string>
+#include <vector>
+
+#include "base/parallel.h"
+#include "cli/console.h"
+#include "facet/explain.h"
+
+namespace facet::cli {
+
+void RunExplain(const ExplainOptions& options) {
+  Explanation explanation;
+  std::vector<std::string> warnings;
+  RunWithThreads(options.request.settings.threads, [&] {
+    const RenderInputs inputs = LoadInputs(options.input, options.request, options.load);
+    warnings = inputs.loaded.report.warnings;
+    explanation = Explain(inputs.loaded.scene, inputs.settings);
+  });
+  for (const auto& list : {warnings, explanation.first.warnings}) {
+    for (const std::string& warning : list) PrintWarning(warning);
+  }
+  const std::string scene = options.input.filename().string();
+  PrintOutput(options.json ? ToJson(explanation, scene) : ToText(explanation, scene));
+}
+
+}  // namespace facet::cli

@@ -1,0 +1,59 @@
+#include "plan/unused_features.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace facet {
+namespace {
+
+// A white texture of one texel, as FramePlan::textures has it; made where it is missing.
+int WhiteTexture(TextureRole role, FramePlan& plan) {
+  const PlannedTexture white{kWhiteImage, role, false};
+  const auto place = std::find(plan.textures.begin(), plan.textures.end(), white);
+  const int index = static_cast<int>(place - plan.textures.begin());
+  if (place == plan.textures.end()) plan.textures.push_back(white);
+  return index;
+}
+
+void UseWhiteTextures(PlannedMaterial& material, FramePlan& plan) {
+  FrameMaterial& f = material.frame;
+  struct Use {
+    MaterialFeatures features;
+    TextureRole role;
+    TextureSlot* slot;  // null: there is no neutral texture of this kind
+  };
+  const Use uses[5] = {{kBaseColorTexture, TextureRole::Color, &f.base_color_texture},
+                       {kMetallicRoughnessTexture, TextureRole::Data, &f.metallic_roughness_texture},
+                       {kNormalTexture, TextureRole::Data, nullptr},
+                       {kOcclusionTexture, TextureRole::Data, &f.occlusion_texture},
+                       {kEmissiveTexture | kEmission, TextureRole::Color, &f.emissive_texture}};
+  for (int i = 0; i < 5; ++i) {
+    if (uses[i].slot == nullptr || material.textures[i] >= 0 || (i > 0 && !f.Has(kLit))) continue;
+    if (f.uv_slots == 0) f.uv_slots = 1;  // TEXCOORD_0, zeros where there is none: one texel is the same everywhere
+    f.features |= uses[i].features;
+    *uses[i].slot = TextureSlot();
+    material.textures[i] = WhiteTexture(uses[i].role, plan);
+  }
+}
+
+}  // namespace
+
+void UseEverything(const RenderSettings& settings, FramePlan& plan) {
+  for (PlannedMaterial& material : plan.materials) UseWhiteTextures(material, plan);
+  if (!plan.alpha_test) {
+    for (PlannedMaterial& material : plan.materials) {
+      FrameMaterial& f = material.frame;
+      if (f.alpha_mode != AlphaMode::Opaque) continue;
+      f.alpha_mode = AlphaMode::Mask;
+      f.alpha_cutoff = -std::numeric_limits<float>::infinity();
+      f.features |= kAlphaTest;
+      plan.alpha_test = true;
+    }
+  }
+  plan.environment_light |=
+      settings.environment.kind != EnvironmentSettings::Kind::None && !settings.without.Has(Feature::EnvironmentLight);
+  plan.dark_light = !plan.punctual_lights;
+  plan.every_texture = true;
+}
+
+}  // namespace facet

@@ -1,0 +1,19 @@
+// Directions through a picture's pixels, as a column's part and a row's.
+#pragma once
+
+#include <vector>
+
+#include "frame/geometry.h"
+
+namespace facet {
+
+// DirectionThrough(view, x + 0.5, y + 0.5), to the bit, is (column[.][x] + row[.][y]) + whole. Columns are followed by
+// zeros up to a multiple of 64.
+struct ViewDirections {
+  std::vector<double> column[3], row[3];
+  double whole[3] = {};
+};
+
+ViewDirections MakeViewDirections(const FrameView& view);
+
+}  // namespace facet

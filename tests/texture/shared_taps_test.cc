@@ -1,0 +1,66 @@
+// Textures of one size, sampled alike, share the places of their texels.
+#include <gtest/gtest.h>
+
+#include "texture/sample-inl.h"
+
+namespace facet {
+namespace {
+
+namespace lanes = HWY_NAMESPACE;
+
+Image Pattern(int width, int height, unsigned seed) {
+  Image image;
+  image.width = width, image.height = height, image.channels = 4;
+  image.bytes.resize(image.PixelCount() * 4);
+  for (std::size_t i = 0; i < image.bytes.size(); ++i) image.bytes[i] = std::byte((i * i / 3 + seed * i) % 251);
+  return image;
+}
+
+TEST(SharedTaps, ServeTexturesThatAreSampledAlike) {
+  const TextureData first = BuildTexture(Pattern(64, 32, 5), TextureRole::Data, true);
+  const TextureData second = BuildTexture(Pattern(64, 32, 6), TextureRole::Color, true);
+  TextureSlot a, b;
+  a.data = &first, b.data = &second;
+  ASSERT_TRUE(lanes::HaveSameTaps(a, b));
+  const lanes::Vec2<float> uv{0.3f, 0.8f}, dx{0.2f, 0.01f}, dy{-0.01f, 0.1f};
+  lanes::TextureTaps<float> taps;
+  lanes::MakeTextureTaps(a, uv, dx, dy, taps);
+  EXPECT_GT(taps.count, 1);
+  EXPECT_TRUE(taps.two_levels);
+  const lanes::Vec4<float> shared = lanes::ReadTexture<lanes::kRgba>(b, taps);
+  const lanes::Vec4<float> own = lanes::SampleTexture<lanes::kRgba>(b, uv, dx, dy);
+  EXPECT_EQ(shared.x, own.x);
+  EXPECT_EQ(shared.y, own.y);
+  EXPECT_EQ(shared.z, own.z);
+  EXPECT_EQ(shared.w, own.w);
+}
+
+TEST(SharedTaps, AreRefusedWhereAnythingDiffersThatPlacesTexels) {
+  const TextureData first = BuildTexture(Pattern(64, 32, 5), TextureRole::Data, true);
+  const TextureData narrow = BuildTexture(Pattern(32, 32, 5), TextureRole::Data, true);
+  const TextureData low = BuildTexture(Pattern(64, 16, 5), TextureRole::Data, true);
+  const TextureData one_level = BuildTexture(Pattern(64, 32, 5), TextureRole::Data, false);
+  TextureSlot a;
+  a.data = &first;
+  const auto differs = [&](auto change) {
+    TextureSlot b = a;
+    change(b);
+    return !lanes::HaveSameTaps(a, b) && !lanes::HaveSameTaps(b, a);
+  };
+  EXPECT_TRUE(differs([&](TextureSlot& b) { b.data = &narrow; }));
+  EXPECT_TRUE(differs([&](TextureSlot& b) { b.data = &low; }));
+  EXPECT_TRUE(differs([&](TextureSlot& b) { b.data = &one_level; }));
+  EXPECT_TRUE(differs([](TextureSlot& b) { b.uv_slot = 1; }));
+  for (int i = 0; i < 6; ++i) {
+    EXPECT_TRUE(differs([&](TextureSlot& b) { b.transform[i] += 0.5f; })) << i;
+  }
+  EXPECT_TRUE(differs([](TextureSlot& b) { b.max_anisotropy = 4.0f; }));
+  EXPECT_TRUE(differs([](TextureSlot& b) { b.sampler.wrap_u = Wrap::ClampToEdge; }));
+  EXPECT_TRUE(differs([](TextureSlot& b) { b.sampler.wrap_v = Wrap::MirroredRepeat; }));
+  EXPECT_TRUE(differs([](TextureSlot& b) { b.sampler.mip = MipFilter::Nearest; }));
+  EXPECT_TRUE(differs([](TextureSlot& b) { b.sampler.minification = Filter::Nearest; }));
+  EXPECT_TRUE(differs([](TextureSlot& b) { b.sampler.magnification = Filter::Nearest; }));
+}
+
+}  // namespace
+}  // namespace facet
