@@ -10,6 +10,7 @@
 #include <new>
 
 #include "base/float_environment.h"
+#include "base/pages.h"
 #include "facet/error.h"
 #include "facet/load.h"
 #include "image/jpeg.h"
@@ -69,7 +70,11 @@ void CheckImageSize(std::uint64_t width, std::uint64_t height, const std::string
 
 std::vector<std::byte> AllocatePixels(std::size_t count, const std::string& name) {
   try {
-    return std::vector<std::byte>(count);
+    std::vector<std::byte> pixels;
+    pixels.reserve(count);
+    PreferHugePages(pixels.data(), count);
+    pixels.resize(count);
+    return pixels;
   } catch (const std::bad_alloc&) {
     throw Error(ErrorCode::OutOfMemory, "no memory for " + std::to_string(count) + " bytes of pixels", name);
   }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/pages.h"
 #include "color/srgb.h"
 #include "facet/error.h"
 
@@ -33,7 +34,10 @@ Image Blank(const Image& like, int channels, ChannelType type) {
   out.channels = channels;
   out.type = type;
   out.encoding = like.encoding;
-  out.bytes.resize(out.PixelCount() * Channels(out) * SizeOf(type));
+  const std::size_t bytes = out.PixelCount() * Channels(out) * SizeOf(type);
+  out.bytes.reserve(bytes);
+  PreferHugePages(out.bytes.data(), bytes);
+  out.bytes.resize(bytes);
   return out;
 }
 

@@ -57,11 +57,11 @@ void FillBorder(float* texels, const Cells& level) {
 }
 
 // RGB to 4 floats a pixel; at least two rows.
-std::vector<float> PadPixels(const Image& rgb, std::int32_t* height) {
+PageVector<float> PadPixels(const Image& rgb, std::int32_t* height) {
   const float* from = rgb.As<float>();
   const std::size_t count = rgb.PixelCount();
   *height = std::max(rgb.height, 2);
-  std::vector<float> out(std::size_t(*height) * std::size_t(rgb.width) * 4, 0.0f);
+  PageVector<float> out(std::size_t(*height) * std::size_t(rgb.width) * 4, 0.0f);
   for (std::size_t i = 0; i < out.size() / 4; ++i) {
     std::copy_n(from + 3 * (i % count), 3, out.data() + 4 * i);
   }
@@ -69,9 +69,9 @@ std::vector<float> PadPixels(const Image& rgb, std::int32_t* height) {
 }
 
 // Half the size; both sizes are even. Neighbouring pixels subtend nearly the same angle.
-std::vector<float> HalvePicture(const std::vector<float>& in, std::int32_t width, std::int32_t height) {
+PageVector<float> HalvePicture(const PageVector<float>& in, std::int32_t width, std::int32_t height) {
   const std::size_t w = std::size_t(width) / 2, h = std::size_t(height) / 2;
-  std::vector<float> out(w * h * 4);
+  PageVector<float> out(w * h * 4);
   ParallelFor(h, 16, [&](std::size_t begin, std::size_t end) {
     for (std::size_t y = begin; y < end; ++y) {
       const float* top = in.data() + 2 * y * std::size_t(width) * 4;
@@ -221,7 +221,7 @@ double AlphaOfLevel(int level) {
   return perceptual_roughness * perceptual_roughness;
 }
 
-void FillSampledLevels(EnvironmentMap* map, const std::vector<float>& chain_texels, const std::vector<Cells>& chain,
+void FillSampledLevels(EnvironmentMap* map, const PageVector<float>& chain_texels, const std::vector<Cells>& chain,
                        int samples) {
   std::array<std::vector<LobeSample>, kFirstConvolved> lobes;
   struct Row {
@@ -274,7 +274,7 @@ std::shared_ptr<const EnvironmentMap> PrefilterEnvironment(const Image& equirect
   CheckImage(equirectangular, "environment");
   auto map = std::make_shared<EnvironmentMap>();
   std::int32_t width = equirectangular.width, height = 0;
-  std::vector<float> picture = PadPixels(ToLinearRgb32F(equirectangular, &map->repaired_values), &height);
+  PageVector<float> picture = PadPixels(ToLinearRgb32F(equirectangular, &map->repaired_values), &height);
   if (options.keep_picture) {
     map->picture = picture;
     map->picture_width = width;
@@ -319,7 +319,7 @@ std::shared_ptr<const EnvironmentMap> PrefilterEnvironment(const Image& equirect
     chain.push_back({size, chain_floats});
     chain_floats += chain.back().Floats();
   }
-  std::vector<float> chain_texels(std::size_t(chain_floats), 0.0f);
+  PageVector<float> chain_texels(std::size_t(chain_floats), 0.0f);
   FillCells(map.get(), map->levels[0], chain_texels.data(), chain[0]);
   for (std::size_t k = 1; k < chain.size(); ++k) HalveSquare(chain_texels.data(), chain[k - 1], chain[k]);
 

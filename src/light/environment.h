@@ -18,6 +18,7 @@
 #include <memory>
 #include <vector>
 
+#include "base/pages.h"
 #include "facet/image.h"
 #include "facet/render.h"
 
@@ -43,9 +44,9 @@ struct EnvironmentMap {
   // Irradiance divided by pi: the mean of radiance, weighted by the cosine.
   Level irradiance;
 
-  std::vector<float> texels;        // RGB and one unused number
+  PageVector<float> texels;        // RGB and one unused number
   // The picture itself, RGB and one unused number, for a sharp background; empty unless asked for.
-  std::vector<float> picture;
+  PageVector<float> picture;
   std::int32_t picture_width = 0, picture_height = 0;
 
   // Numbers of the input that were not finite, negative or absurdly large (see ToLinearRgb32F).

@@ -267,7 +267,7 @@ TEST(Environment, AnySizeAndType) {
 
 TEST(Environment, SameBitsOnEveryInstructionSetAndThreadCount) {
   const Image image = Paint(256, 128, [](Vec3<double> d) { return std::exp(3.0 * d.x) + d.z * d.z; });
-  std::vector<float> scalar;
+  PageVector<float> scalar;
   {
     const ScopedTarget forced(Target::Scalar);
     RunWithThreads(1, [&] { scalar = PrefilterEnvironment(image)->texels; });
