@@ -47,7 +47,7 @@ def run_main(main):
     """Runs main(), whose failures are one line on standard error."""
     try:
         sys.exit(main())
-    except Failure as failure:
+    except (Failure, OSError) as failure:
         print(f"{pathlib.Path(sys.argv[0]).name}: {failure}", file=sys.stderr)
         sys.exit(1)
     except KeyboardInterrupt:
@@ -167,7 +167,10 @@ def instructions(command, stages=()):
         within = {}
         if stages:
             listing = subprocess.run(["callgrind_annotate", "--inclusive=yes", "--threshold=100", str(counts)],
-                                     capture_output=True, text=True, check=False).stdout
+                                     capture_output=True, text=True, check=False)
+            if listing.returncode != 0:
+                raise Failure("callgrind_annotate failed: " + (listing.stderr.strip().splitlines() or ["?"])[-1])
+            listing = listing.stdout
             for stage in stages:  # the outermost function of that name has the most
                 hits = [int(m[1].replace(",", "")) for m in re.finditer(
                     r"^\s*([\d,]+) \([^)]*\)\s+\S*:facet::" + stage + r"\(", listing, re.MULTILINE)]

@@ -67,7 +67,8 @@ def main():
     used = compiler(o.build)
     tables = harness.Tables(o.markdown)
     if stored.get("compiler", used) != used:
-        tables.line(f"instructions.json was counted with {stored['compiler']}, this build is of {used}.")
+        tables.line(f"instructions.json was counted with {stored['compiler']}, this build is of {used}: nothing to compare.")
+        stored = {"scenes": {}}
     tables.head("", ["scene", "a covered pixel", "of it tiles", "a triangle", "of it geometry", "frame, M",
                      *(key + ", M" for key in STAGES), "file to file, M", "changed"])
     fresh, worse = {}, []

@@ -7,11 +7,10 @@
 //   texels       each fragment's footprint, trilinear and along its major axis, read as if all textures of the material
 //                lay in one texel of 16 bytes: in the order of the frame, from squares of 4 x 4 texels
 //   tables       prefiltered environment (two levels), irradiance, albedo tables: 16 reads of 16 bytes in the cache
-//   arithmetic   as many additions and multiplications, divisions and roots as facet's shader does for a fragment,
-//   counted
+//   arithmetic   as many additions and multiplications, divisions and roots as facet's shader does for a fragment, counted
 //                by running it on numbers that count; in lanes, none waiting for another. Addresses are not counted.
-//   background   four pixels of the picture for each pixel that the model leaves free, and the arithmetic of its
-//   direction film         16 bytes a pixel, written once
+//   background   four pixels of the picture for each pixel that the model leaves free, and the arithmetic of its direction
+//   film         16 bytes a pixel, written once
 // Nothing is counted for vertices, triangle set-up and visibility. Each part is timed alone (the least of the repeats)
 // with one and two threads; their sum is what the frame is measured against.
 #include <algorithm>
@@ -191,7 +190,8 @@ int Main(int argc, char** argv) {
     return OperationCounts{sums.simple / n, sums.divisions / n, sums.roots / n};
   };
   const OperationCounts shading = mean(recorder.shading), background = mean(recorder.background);
-  const std::size_t pixels = film.pixels.size(), covered = recorder.fragments, free_pixels = pixels - covered;
+  const std::size_t pixels = film.pixels.size(), covered = recorder.fragments;
+  const std::size_t free_pixels = pixels - std::min(pixels, covered);  // right for opaque models
   const Image& picture = *settings.environment.image;
   const std::size_t picture_width = std::size_t(picture.width),
                     picture_pixels = picture_width * std::size_t(picture.height);

@@ -60,7 +60,8 @@ struct Explanation {
   std::vector<FeatureCost> costs;
 };
 
-// Renders the scene again and again, a second or a few. Throws what Render() throws.
+// Renders the scene again and again: some ten frames at least for each feature that it uses. `settings.progress` is not
+// called. Throws what Render() throws.
 Explanation Explain(const Scene& scene, const RenderSettings& settings);
 
 // For people: tables. `scene` is what the scene is called.

@@ -189,6 +189,7 @@ Film Render(const Scene& scene, const RenderSettings& settings, RenderStats* sta
 class Renderer {
  public:
   explicit Renderer(const Scene& scene);
+  explicit Renderer(const Scene&& scene) = delete;  // it would be gone
   ~Renderer();
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;

@@ -8,7 +8,7 @@
 
 namespace facet {
 
-// Looks up the record behind a frame-wide number.
+// Looks up the record behind a number of the tile.
 class RecordTable {
  public:
   virtual ~RecordTable() = default;

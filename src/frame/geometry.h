@@ -80,7 +80,6 @@ struct TriangleRecord {
 struct TriangleChunk {
   std::uint32_t drawable = 0;
   std::uint32_t first_primitive = 0, primitive_count = 0;
-  std::uint32_t record_base = 0;  // of its records in the frame's numbering
   std::vector<TriangleRecord> records;
   // Records by tile: tile tiles[i] holds entries [begin[i], begin[i + 1]) of `entries`, each an index into `records`.
   std::vector<std::uint32_t> tiles, begin, entries;

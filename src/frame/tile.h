@@ -14,7 +14,7 @@ inline constexpr std::int32_t kNoRecord = -1;
 // Fragments: (pixel, triangle) pairs, in the order in which they were found.
 struct FragmentList {
   std::vector<std::uint16_t> pixel;   // y * tile_size + x within the tile
-  std::vector<std::int32_t> record;   // frame-wide number of the triangle record
+  std::vector<std::int32_t> record;   // number of the triangle record within the tile, in submission order
   std::vector<std::uint8_t> samples;  // bit s: covers sample s
 
   std::size_t Size() const { return pixel.size(); }

@@ -8,6 +8,8 @@
 #include <string>
 #include <utility>
 
+#include <sys/stat.h>
+
 #include "facet/error.h"
 
 #ifdef __linux__
@@ -54,8 +56,10 @@ Bytes ReadFileStart(const std::filesystem::path& path, std::size_t most, std::ui
     throw Error(ErrorCode::NotFound, std::string("cannot be opened (") + std::strerror(errno) + ")", name,
                 "check the permissions");
   }
-  const std::uintmax_t size = std::filesystem::file_size(path, ignored);
-  if (ignored) throw Error(ErrorCode::NotFound, "cannot be read", name);
+  // Of the open file, which another may have replaced under its name.
+  struct stat opened;
+  if (::fstat(fileno(file.get()), &opened) != 0) throw Error(ErrorCode::NotFound, "cannot be read", name);
+  const auto size = static_cast<std::uintmax_t>(opened.st_size);
   if (file_size) *file_size = size;
   const auto wanted = static_cast<std::size_t>(std::min<std::uintmax_t>(size, most));
   if (wanted >= kMappedSize) {

@@ -10,7 +10,7 @@ namespace facet {
 // Triangles of one tile, in submission order.
 struct TileTriangles {
   const TriangleRecord* const* records = nullptr;
-  const std::int32_t* numbers = nullptr;  // frame-wide record numbers
+  const std::int32_t* numbers = nullptr;  // of the records, within the tile
   std::size_t count = 0;
 };
 

@@ -23,14 +23,6 @@ struct VertexRange {
 
 }  // namespace
 
-const TriangleRecord& FrameGeometry::Record(std::int32_t number) const {
-  const auto n = static_cast<std::uint32_t>(number);
-  const auto after = std::upper_bound(chunks.begin(), chunks.end(), n,
-                                      [](std::uint32_t k, const TriangleChunk& c) { return k < c.record_base; });
-  const TriangleChunk& chunk = *std::prev(after);
-  return chunk.records[n - chunk.record_base];
-}
-
 void RunGeometry(const FrameView& view, const PosedScene& posed, const FramePlan& plan, const TileGrid& grid,
                  int samples, FrameGeometry& frame, RenderStats& stats) {
   std::vector<VertexRange> ranges;
@@ -93,7 +85,6 @@ void RunGeometry(const FrameView& view, const PosedScene& posed, const FramePlan
   std::uint64_t record_count = 0;
   for (std::size_t i = 0; i < frame.chunks.size(); ++i) {
     TriangleChunk& chunk = frame.chunks[i];
-    chunk.record_base = static_cast<std::uint32_t>(record_count);
     record_count += chunk.records.size();
     stats.triangles_culled += chunk.culled;
     stats.triangles_clipped += chunk.clipped;

@@ -18,8 +18,6 @@ struct FrameGeometry {
   TileLists lists;
   std::vector<bool> material_visible;  // of FramePlan::materials: some triangle of it reached a tile
   VertexBuffer vertices;
-
-  const TriangleRecord& Record(std::int32_t number) const;
 };
 
 // Fills `frame`; whatever it held is lost. `posed` must outlive it.

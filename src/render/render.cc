@@ -88,18 +88,16 @@ std::size_t BytesOf(const std::deque<Primitive>& primitives) {
 // A shader, or the material model (null), where the environment is to be seen behind the scene and not to light it.
 class WithoutEnvironment final : public FragmentShader {
  public:
-  explicit WithoutEnvironment(const LightingData& lighting, const FragmentShader* shader)
-      : lighting_(lighting), shader_(shader) {
-    lighting_.environment = nullptr;
-  }
+  explicit WithoutEnvironment(const FragmentShader* shader) : shader_(shader) {}
   void Shade(const ShadeTask& task) const override {
+    LightingData lighting = *task.lighting;
+    lighting.environment = nullptr;
     ShadeTask dark = task;
-    dark.lighting = &lighting_;
+    dark.lighting = &lighting;
     shader_ != nullptr ? shader_->Shade(dark) : ShadeMetallicRoughnessFragments(dark);
   }
 
  private:
-  LightingData lighting_;
   const FragmentShader* shader_;
 };
 
@@ -141,10 +139,10 @@ class Renderer::Frames {
     film.pixels.reserve(pixel_count);
     PreferHugePages(film.pixels.data(), pixel_count * sizeof(glm::vec4));
     film.pixels.resize(pixel_count);
-    const WithoutEnvironment unlit_by_background(lighting, settings.shader);
+    const WithoutEnvironment unlit_by_background(settings.shader);
     RenderSettings shaded = settings;
     if (environment != nullptr && !plan.environment_light) shaded.shader = &unlit_by_background;
-    RunTiles({view, plan, geometry_, grid, lighting, shaded}, film, stats);
+    RunTiles({view, plan, geometry_, grid, lighting, shaded, settings.shader == nullptr}, film, stats);
     stats.raster_seconds = stage.Lap();
     stats.total_seconds = total.Lap();
     if (settings.progress) settings.progress(1.0);

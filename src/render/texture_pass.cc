@@ -55,7 +55,8 @@ void DecodeTextures(const Scene& scene, const std::vector<bool>& material_visibl
       const std::size_t i = order[piece].second;
       const auto for_each_role = [&](auto&& body) {
         for (std::size_t t = 0; t < needed.size(); ++t) {
-          if (needed[t] && plan.textures[t].image == images[i]) body(plan.textures[t], textures.entries[t]);
+          const bool missing = needed[t] && textures.entries[t].data == nullptr;
+          if (missing && plan.textures[t].image == images[i]) body(plan.textures[t], textures.entries[t]);
         }
       };
       const ImageSource& source = *scene.images[std::size_t(images[i])].source;
@@ -66,6 +67,7 @@ void DecodeTextures(const Scene& scene, const std::vector<bool>& material_visibl
             builders.try_emplace(&entry, rows, height, planned.role, planned.mips, texels).first->second.Add(rows);
           });
         });
+        if (builders.empty()) throw Error(ErrorCode::InvalidInput, "a picture without rows");
         for (auto& [entry, builder] : builders) entry->data = std::make_unique<const TextureData>(builder.Finish());
       } catch (const Error& error) {
         if (error.code() != ErrorCode::InvalidInput && error.code() != ErrorCode::NotFound) {
@@ -84,7 +86,7 @@ void DecodeTextures(const Scene& scene, const std::vector<bool>& material_visibl
   stats.images_decoded = images.size();
   for (std::size_t t = 0; t < needed.size(); ++t) {
     const FrameTextures::Entry& entry = textures.entries[t];
-    if (entry.data != nullptr) {
+    if (needed[t] && entry.data != nullptr) {
       const TextureData& data = *entry.data;
       stats.texture_bytes += data.Bytes();
       stats.textures.push_back({plan.textures[t].image, plan.textures[t].role == TextureRole::Color, data.level_width[0],

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <bit>
+#include <cstdlib>
 #include <limits>
 #include <memory>
 #include <mutex>
@@ -177,17 +178,30 @@ class TileWorker final : public RecordTable {
     }
   }
 
-  // Those lights that reach the tile's fragments: all where there are few, or no perspective to bound the fragments with.
+  // So thin that its fragments may be lit anywhere along it: it has its area from snapping, or its weights are clamped.
+  static bool IsSliver(const TriangleRecord& r) {
+    if (r.kind != RecordKind::Triangle) return false;
+    std::int64_t longest2 = 0, area2 = 0;
+    for (int i = 0, j = 2; i < 3; j = i++) {
+      const std::int64_t x = std::int64_t(r.x_fx8[i]) - r.x_fx8[j], y = std::int64_t(r.y_fx8[i]) - r.y_fx8[j];
+      longest2 = std::max(longest2, x * x + y * y);
+      area2 += std::int64_t(r.x_fx8[j]) * r.y_fx8[i] - std::int64_t(r.x_fx8[i]) * r.y_fx8[j];
+    }
+    return std::abs(area2) < longest2 / 128;
+  }
+
+  // Those lights that reach the tile's fragments: all where there are few, or nothing to bound the fragments with.
   void ChooseLights(const FragmentList& list) {
     constexpr int kFew = 4;
     constexpr double kBorder = 2.0;  // pixels: lines and points are wider than the places that they are lit at
     lighting_ = in_.lighting;
-    if (in_.lighting.light_count <= kFew || !in_.view.perspective) return;
+    if (!in_.cull_lights || in_.lighting.light_count <= kFew || !in_.view.perspective) return;
     float nearest = 0.0f, farthest = std::numeric_limits<float>::infinity();  // depth is 1 / distance
     std::int32_t last_number = kNoRecord;
     for (std::size_t i = 0; i < list.Size(); ++i) {
       if (list.record[i] == last_number) continue;
       last_number = list.record[i];
+      if (IsSliver(Record(last_number))) return;
       nearest = std::max(nearest, Record(last_number).depth_max);
       farthest = std::min(farthest, Record(last_number).depth_min);
     }

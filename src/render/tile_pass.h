@@ -16,6 +16,7 @@ struct TilePassInput {
   const TileGrid& grid;
   const LightingData& lighting;
   const RenderSettings& settings;
+  bool cull_lights;  // leave out those that do not reach a tile; a user's shader sees them all
 };
 
 // Fills the film (sized by the caller) and the counts of `stats`.

@@ -111,10 +111,14 @@ std::vector<Ablation> Ablations(const RenderSettings& settings, const FramePlan&
   const auto add = [&](std::string feature, std::string option) -> RenderSettings& {
     return ablations.emplace_back(Ablation{std::move(feature), std::move(option), settings}).settings;
   };
+  std::string already;  // the option is given once, with the whole list
+  for (const FeatureWord& known : FeatureWords()) {
+    if (settings.without.Has(known.feature)) already += std::string(known.word) + ",";
+  }
   for (const FeatureWord& known : FeatureWords()) {
     if (!plan.uses.Has(known.feature)) continue;
     const std::string word(known.word);
-    add(word, "--without " + word).without.Add(known.feature);
+    add(word, "--without " + already + word).without.Add(known.feature);
   }
   if (plan.environment_background) add("background", "--background transparent").background = Background::Transparent;
   if (settings.samples > 1) add("multisampling", "--samples 1").samples = 1;
@@ -228,6 +232,7 @@ Explanation Explain(const Scene& scene, const RenderSettings& asked) {
   Explanation out;
   RunWithThreads(asked.threads, [&] {
     RenderSettings settings = asked;
+    settings.progress = nullptr;  // many frames, each of which would start anew
     Measurement measurement(scene, settings);
     measurement.MeasureFrames(out);
     const PosedScene posed = Pose(scene, PoseOf(settings));
@@ -238,7 +243,7 @@ Explanation Explain(const Scene& scene, const RenderSettings& asked) {
     out.samples = settings.samples;
     out.materials = DescribeMaterials(scene, posed, plan);
     out.textures = DescribeTextures(scene, plan, out.steady);
-    out.lights = CountLights(posed);
+    if (plan.punctual_lights) out.lights = CountLights(posed);
     out.environment_light = plan.environment_light;
     out.environment_background = plan.environment_background;
     out.environment = EnvironmentName(settings.environment);

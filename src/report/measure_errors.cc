@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <set>
 #include <sstream>
@@ -77,6 +78,8 @@ class Sweep {
     if (environment.kind == EnvironmentSettings::Kind::Studio) {
       environment.kind = EnvironmentSettings::Kind::Image;
       environment.image = std::make_shared<const Image>(StudioPicture(kStudioWidth, kStudioHeight));
+      largest_environment_ = kStudioMaxSize;
+      resolved_.environment_size = std::min(resolved_.environment_size, kStudioMaxSize);
     }
     out_.settings = SpelledOut(request);
     out_.width = resolved_.width;
@@ -121,7 +124,22 @@ class Sweep {
     RenderRequest request;
     request.settings = resolved_;
     for (const auto& [option, value] : changed) SetOption(request, option, option, value);
+    int& size = request.settings.environment_size;
+    size = std::min(size, largest_environment_);
     return request.settings;
+  }
+
+  // Every approximation; of the environment's sizes those that make a difference.
+  std::vector<Knob> Knobs() const {
+    SettingsText settings = out_.settings;
+    std::string& size = settings.at("environment-size");
+    size = std::to_string(std::min(std::stoi(size), largest_environment_));
+    std::vector<Knob> knobs = AllKnobs(settings);
+    for (Knob& knob : knobs) {
+      if (knob.option != "environment-size") continue;
+      std::erase_if(knob.values, [&](const std::string& value) { return std::stoi(value) > largest_environment_; });
+    }
+    return knobs;
   }
 
   // Adds a point; `kept` gets its film.
@@ -176,7 +194,7 @@ class Sweep {
 
   // Each approximation by itself. One whose cheapest and most exact values change nothing is not for this scene.
   void MeasureOneByOne(const Film& used) {
-    for (Knob& knob : AllKnobs(out_.settings)) {
+    for (Knob& knob : Knobs()) {
       if (OutOfTime()) {
         ++unmeasured_;
         continue;
@@ -280,6 +298,7 @@ class Sweep {
   const Scene& scene_;
   const RenderRequest& request_;
   RenderSettings resolved_;
+  int largest_environment_ = std::numeric_limits<int>::max();  // texels that it is prepared with at most
   const ReportSettings& report_;
   const Clock clock_;
   ReferenceFilm reference_;

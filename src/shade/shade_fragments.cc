@@ -24,14 +24,14 @@ void AlphaKernel(const ShadeTask& task) {
 void BackgroundKernel(const BackgroundTask& task) {
   const LightingView<Float> lighting(*task.lighting);
   constexpr int kPixels = 16;  // at a time, whatever the lanes
-  alignas(64) float direction[3][kPixels], color[3][kPixels];
+  alignas(64) float direction[3][kPixels] = {}, color[3][kPixels];
   for (int x = 0; x < task.width; x += kPixels) {
     const int count = task.width - x < kPixels ? task.width - x : kPixels;
     bool any = false;
     for (int i = 0; i < count; ++i) any |= task.pixels[4 * (x + i) + 3] < 1.0f;
     if (!any) continue;
     for (int c = 0; c < 3; ++c) {
-      for (int i = 0; i < kPixels; ++i) {
+      for (int i = 0; i < count; ++i) {
         direction[c][i] = static_cast<float>((task.column[c][x + i] + task.row[c]) + task.whole[c]);
       }
     }

@@ -57,11 +57,20 @@ TEST(Renderer, FramesEqualSingleRenderings) {
   expect_equal("another environment");
   settings.background = Background::Environment;
   expect_equal("background");
-  settings.environment_size = 64;
   settings.environment_samples = 6;
+  expect_equal("samples of the environment");
   settings.irradiance = IrradianceMethod::SphericalHarmonics;
-  expect_equal("environment's approximations");
+  expect_equal("irradiance");
+  settings.environment.rotation = 1.0;
+  expect_equal("rotation");
+  settings.environment.intensity = 0.5;
+  expect_equal("intensity");
+  settings.texels = TexelBits::Sixteen;
+  settings.without = {Feature::EnvironmentLight};
+  expect_equal("without light from the environment");
+  settings.without = {};
   settings.samples = 1;
+  expect_equal("samples");
   settings.height = 90;
   expect_equal("size");
   settings = first;
@@ -99,6 +108,63 @@ TEST(Renderer, DecodesOnceAndSaysEachTimeWhatFailed) {
   RenderStats stats;
   renderer.Render(settings, film, &stats);
   EXPECT_EQ(stats.images_decoded, 1u);
+}
+
+Digest HashWithTiles(const Scene& scene, RenderSettings settings, int tile_size) {
+  settings.tile_size = tile_size;
+  return HashFilm(Render(scene, settings));
+}
+
+// Rows of the background end with the picture, not with a packet of lanes.
+TEST(Tiles, NeverChangeTheBackground) {
+  const LoadedScene loaded = LoadGltf(std::string(FACET_SOURCE_DIR) + "/assets/scenes/animated.glb");
+  RenderSettings settings;
+  settings.environment.kind = EnvironmentSettings::Kind::Image;
+  settings.environment.image = std::make_shared<const Image>(Sky(0.5f));
+  settings.background = Background::Environment;
+  settings.height = 24;
+  for (int width : {57, 64, 128, 131}) {
+    settings.width = width;
+    const Digest expected = HashWithTiles(loaded.scene, settings, 64);
+    for (int tile : {8, 16, 32}) EXPECT_EQ(HashWithTiles(loaded.scene, settings, tile), expected) << width << " " << tile;
+  }
+}
+
+// Which lights are left out differs from tile to tile; what they give does not. Slivers, that cover a pixel far from where
+// they are lit, among the triangles.
+TEST(Tiles, NeverChangeTheLights) {
+  Scene scene;
+  Material material;
+  material.roughness_factor = 0.7f;
+  material.double_sided = true;
+  const int index = AddMaterial(scene, material);
+  Add(scene, Sphere(1.0f, 24, 40), index);
+  Uniform random(3);
+  Primitive slivers;
+  for (int i = 0; i < 60; ++i) {
+    const glm::vec3 from(random(-1.5, 1.5), random(-1.5, 1.5), 1.2f), to(random(-1.5, 1.5), random(-1.5, 1.5), 1.2f);
+    slivers.positions.insert(slivers.positions.end(), {from, from * 0.43f + to * 0.57f, to});
+    for (int k = 0; k < 3; ++k) slivers.normals.emplace_back(0.0f, 0.0f, 1.0f);
+  }
+  Add(scene, slivers, index);
+  for (int i = 0; i < 60; ++i) {
+    Light light;
+    light.type = LightType::Point;
+    light.intensity = 1.0f;
+    light.range = static_cast<float>(random(0.2, 0.8));
+    light.color = {static_cast<float>(random()), 0.5f, 1.0f};
+    scene.lights.push_back(light);
+    Node node;
+    node.light = i;
+    node.transform.translation = {random(-1.5, 1.5), random(-1.5, 1.5), random(0.8, 1.6)};
+    scene.nodes.push_back(node);
+  }
+  RenderSettings settings = Settings(150, 130, 4, Perspective(0.8, {0, 0, 4.5}));
+  const Digest expected = HashWithTiles(scene, settings, 64);
+  for (int tile : {8, 16, 32}) EXPECT_EQ(HashWithTiles(scene, settings, tile), expected) << tile;
+  // The lights are seen at all, and not all of them everywhere.
+  settings.without = {Feature::PunctualLights};
+  EXPECT_NE(HashWithTiles(scene, settings, 64), expected);
 }
 
 }  // namespace
