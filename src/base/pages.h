@@ -10,7 +10,7 @@ namespace facet {
 // Bytes in huge pages where Linux has them: the first touch of memory costs several times as much in small ones. Small
 // amounts come from the heap. Not zeroed. Throws std::bad_alloc.
 void* AllocatePages(std::size_t bytes);
-void FreePages(void* memory, std::size_t bytes);
+void FreePages(void* memory);
 
 // The same wish for memory that comes from elsewhere and has not been touched: a vector's between reserve() and
 // resize().
@@ -27,7 +27,7 @@ struct PageAllocator {
     if (count > std::size_t(-1) / sizeof(T)) throw std::bad_array_new_length();
     return static_cast<T*>(AllocatePages(count * sizeof(T)));
   }
-  void deallocate(T* memory, std::size_t count) { FreePages(memory, count * sizeof(T)); }
+  void deallocate(T* memory, std::size_t) { FreePages(memory); }
   template <class U>
   void construct(U* at) {
     ::new (static_cast<void*>(at)) U;
