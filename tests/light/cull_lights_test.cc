@@ -17,7 +17,9 @@ TEST(CullLights, WhatIsLeftOutGivesNothingInTheBox) {
   std::uniform_real_distribution<double> place(-10.0, 10.0), size(0.0, 3.0), unit(0.0, 1.0), range(0.1, 8.0);
   Light light;
   std::vector<PosedLight> posed;
-  std::vector<Light> lights(400, light);
+  std::vector<Light> lights;
+  lights.reserve(401);  // others point into it
+  lights.resize(400, light);
   for (std::size_t i = 0; i < lights.size(); ++i) {
     lights[i].type = i % 3 == 0 ? LightType::Spot : LightType::Point;
     if (i % 7 != 0) lights[i].range = static_cast<float>(range(random));
