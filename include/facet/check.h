@@ -56,14 +56,13 @@ struct CheckReport {
   std::size_t Count(Verdict verdict) const;
 };
 
-// Renders the entries of a manifest, several at a time, and compares. An entry is decided by the hash of its film; where
-// that differs, or is not given, by a comparison of pictures. A picture that an entry lists is compared in any case, which
-// covers developing. An error in one entry ends up in
-// its verdict and stops no other. Apart from the times the report does not depend on the number of threads. With
-// options.update the golden pictures and the manifest are rewritten where they do not hold, each file whole or not at
-// all; entries that cannot be rendered stay as they are. Throws Error where nothing could be run: NotFound,
-// InvalidInput (no JSON, or no manifest), InvalidUsage (a bad option, or no entry is selected), OutputFailed (the
-// manifest cannot be rewritten).
+// Renders the entries of a manifest, several at a time, and compares. An entry is decided by the hash of its film;
+// where that differs, or is not given, by a comparison of pictures. A picture that an entry lists is compared in any
+// case, which covers developing. An error in one entry ends up in its verdict and stops no other. Apart from the times
+// the report does not depend on the number of threads. With options.update the golden pictures and the manifest are
+// rewritten where they do not hold, each file whole or not at all; entries that cannot be rendered stay as they are.
+// Throws Error where nothing could be run: NotFound, InvalidInput (no JSON, or no manifest), InvalidUsage (a bad
+// option, or no entry is selected), OutputFailed (the manifest cannot be rewritten).
 CheckReport CheckManifest(const std::filesystem::path& manifest, const CheckOptions& options = {});
 
 // The report as one HTML file that needs no other: the table of all entries, and the pictures that were kept, side by

@@ -29,8 +29,8 @@ std::optional<Digest> ParseDigest(std::string_view hex);
 // Of the line "facet film WIDTH HEIGHT\n" and the pixels: R, G, B, A as little-endian IEEE 754 floats, top row first.
 Digest HashFilm(const Film& film);
 
-// Of the line "facet image WIDTH HEIGHT CHANNELS BITS ENCODING\n" (32 bits are floats; srgb or linear) and the pixels as
-// they lie in memory, little-endian, top row first.
+// Of the line "facet image WIDTH HEIGHT CHANNELS BITS ENCODING\n" (32 bits are floats; srgb or linear) and the pixels
+// as they lie in memory, little-endian, top row first.
 Digest HashImage(const Image& image);
 
 // What a rendering starts from, each apart: where two machines' pictures differ, these tell a decoder's difference from

@@ -50,8 +50,8 @@ using CameraChoice = std::variant<AutoCamera, OrbitCamera, SceneCamera, FreeCame
 
 // --- Light -----------------------------------------------------------------------------------------------------------
 
-// Light from all around. The picture is equirectangular: its centre column lies towards +X, +Z is a quarter further to the right
-// (docs/conventions.md).
+// Light from all around. The picture is equirectangular: its centre column lies towards +X, +Z is a quarter further to
+// the right (docs/conventions.md).
 struct EnvironmentSettings {
   enum class Kind : std::uint8_t { Studio, None, Image };
   Kind kind = Kind::Studio;
@@ -62,19 +62,19 @@ struct EnvironmentSettings {
 
 enum class Background : std::uint8_t { Transparent, Environment };
 
-// --- Approximations ---------------------------------------------------------------------------------------------------
+// --- Approximations --------------------------------------------------------------------------------------------------
 
 // How textures are kept. Mixed: colour as 16 bits of linear light a channel, all else as the file's 8 (or 16) bits.
 enum class TexelBits : std::uint8_t { Mixed, Eight, Sixteen };
 
-// How the light that a diffuse surface gathers is integrated over the environment. SphericalHarmonics: nine coefficients
-// (Ramamoorthi and Hanrahan, 2001, An Efficient Representation for Irradiance Environment Maps).
+// How the light that a diffuse surface gathers is integrated over the environment. SphericalHarmonics: nine
+// coefficients (Ramamoorthi and Hanrahan, 2001, An Efficient Representation for Irradiance Environment Maps).
 enum class IrradianceMethod : std::uint8_t { Convolution, SphericalHarmonics };
 
 // Whose tangents normal maps are read with. Generated: MikkTSpace's, also where the file has some.
 enum class TangentSource : std::uint8_t { File, Generated };
 
-// --- Leaving out ------------------------------------------------------------------------------------------------------
+// --- Leaving out -----------------------------------------------------------------------------------------------------
 
 // What a scene may have and a picture can do without. Bits of a mask.
 enum class Feature : std::uint32_t {
@@ -107,7 +107,7 @@ class FeatureSet {
   std::uint32_t bits_ = 0;
 };
 
-// --- Settings ----------------------------------------------------------------------------------------------------------
+// --- Settings --------------------------------------------------------------------------------------------------------
 
 struct RenderSettings {
   int width = 1024;   // 1 to 16384
@@ -141,7 +141,7 @@ struct RenderSettings {
   std::function<void(double)> progress;
 };
 
-// --- What it took ------------------------------------------------------------------------------------------------------
+// --- What it took ----------------------------------------------------------------------------------------------------
 
 // A texture that the frame reads.
 struct TextureStats {
@@ -184,8 +184,9 @@ struct RenderStats {
 // InvalidInput for scenes that break their rules, OutOfMemory.
 Film Render(const Scene& scene, const RenderSettings& settings, RenderStats* stats = nullptr);
 
-// Renders one scene again and again: what a frame shares with the one before (its pose, textures, environment and memory)
-// is kept. Every frame is the one that Render() makes. The scene must outlive the renderer, and must not change.
+// Renders one scene again and again: what a frame shares with the one before (its pose, textures, environment and
+// memory) is kept. Every frame is the one that Render() makes. The scene must outlive the renderer, and must not
+// change.
 class Renderer {
  public:
   explicit Renderer(const Scene& scene);

@@ -1,5 +1,5 @@
-// Fragment shaders of one's own: see facet/shader/shader-inl.h for how to write one, and facet_add_shader() in CMake for
-// how to compile it for every instruction set.
+// Fragment shaders of one's own: see facet/shader/shader-inl.h for how to write one, and facet_add_shader() in CMake
+// for how to compile it for every instruction set.
 #pragma once
 
 #include <cstdint>

@@ -10,6 +10,7 @@
 
 #include "base/printable.h"
 #include "facet/version.h"
+#include "report/report_words.h"
 
 namespace facet::cli {
 namespace {
@@ -61,17 +62,6 @@ std::array<Count, 12> Counts(const RenderStats& r) {
            {"covered_pixels", "covered pixels", r.covered_pixels},
            {"images_decoded", "images decoded", r.images_decoded},
            {"non_finite_fragments", "non-finite fragments", r.non_finite_fragments}}};
-}
-
-// 1234567 as "1,234,567".
-std::string Grouped(std::uint64_t value) {
-  const std::string digits = std::to_string(value);
-  std::string text;
-  for (std::size_t i = 0; i < digits.size(); ++i) {
-    if (i > 0 && (digits.size() - i) % 3 == 0) text += ',';
-    text += digits[i];
-  }
-  return text;
 }
 
 std::string Row(const char* label, const std::string& value, const char* unit) {

@@ -44,8 +44,8 @@ HWY_INLINE Mask SpansSample(Int low, Int high, int first, int last) {
   return !(first_pixel > last_pixel);
 }
 
-// Rates of depth over the screen, in double, from corners relative to the first. The same sequence as the one for single
-// triangles (assemble.cc).
+// Rates of depth over the screen, in double, from corners relative to the first. The same sequence as the one for
+// single triangles (assemble.cc).
 HWY_INLINE void DepthPlanes(const std::int32_t* x1, const std::int32_t* y1, const std::int32_t* x2,
                             const std::int32_t* y2, const std::int32_t* area, const float (*depth)[kMaxLanes],
                             double* depth_dx, double* depth_dy) {

@@ -11,8 +11,9 @@
 namespace facet {
 
 // The camera of a frame, reduced to what the stages need. "Homogeneous screen space" is (x, y, distance): for a
-// perspective camera a point is at pixel (x / distance, y / distance) and its depth is 1 / distance; for an orthographic
-// one it is at pixel (x, y) and its depth is -distance. Depth is affine over the screen, and larger is nearer.
+// perspective camera a point is at pixel (x / distance, y / distance) and its depth is 1 / distance; for an
+// orthographic one it is at pixel (x, y) and its depth is -distance. Depth is affine over the screen, and larger is
+// nearer.
 struct FrameView {
   int width = 0, height = 0;
   bool perspective = true;

@@ -30,8 +30,8 @@ struct ShadedFragments {
   void Resize() { for (auto* v : {&red, &green, &blue, &alpha}) v->resize(list.Size()); }
 };
 
-// Depth and triangle of every sample. Sample s of pixel (x, y) stands at Index(x, y, s): blocks of 8 x 8 pixels, in each
-// one plane of 64 after the other for each sample, so that lanes read neighbours.
+// Depth and triangle of every sample. Sample s of pixel (x, y) stands at Index(x, y, s): blocks of 8 x 8 pixels, in
+// each one plane of 64 after the other for each sample, so that lanes read neighbours.
 struct TileBuffers {
   int x0 = 0, y0 = 0;          // picture position of the tile's top left pixel
   int width = 0, height = 0;   // pixels of it inside the picture

@@ -44,8 +44,8 @@ std::vector<std::byte> EncodePng(const Image& image, const std::function<PngText
 void WriteImageWithText(const std::filesystem::path& path, const Image& image,
                         const std::function<PngText()>& make_text);
 
-// The text chunks before the pixels of a PNG file, keyword to value in UTF-8; of equal keywords the first counts. `name` is
-// what messages call the picture. Throws Error(InvalidInput).
+// The text chunks before the pixels of a PNG file, keyword to value in UTF-8; of equal keywords the first counts.
+// `name` is what messages call the picture. Throws Error(InvalidInput).
 std::map<std::string, std::string> ReadPngText(std::span<const std::byte> bytes, const std::string& name);
 
 // Calls write(temporary path in the same folder), then gives that file the name `path`: it appears whole or not at

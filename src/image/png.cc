@@ -188,9 +188,9 @@ PageVector<unsigned char> FilterRows(const Image& image) {
   return filtered;
 }
 
-// Measured on rendered pictures, RGBA, one thread: level 1 takes 16 ms for 1024 x 1024 (980 kB) and 26 ms for 1920 x 1080
-// with a background (1170 kB); level 3 takes 27 and 36 ms and makes files 2 to 3 % smaller. zlib's level 2 takes 33 and
-// 42 ms and makes them 5 to 8 % larger. The filter Sub costs 3 % in the one and saves 7 % in the other.
+// Measured on rendered pictures, RGBA, one thread: level 1 takes 16 ms for 1024 x 1024 (980 kB) and 26 ms for 1920 x
+// 1080 with a background (1170 kB); level 3 takes 27 and 36 ms and makes files 2 to 3 % smaller. zlib's level 2 takes
+// 33 and 42 ms and makes them 5 to 8 % larger. The filter Sub costs 3 % in the one and saves 7 % in the other.
 PageVector<unsigned char> Pack(const Image& image) {
   const PageVector<unsigned char> filtered = FilterRows(image);
   const std::unique_ptr<libdeflate_compressor, void (*)(libdeflate_compressor*)> compressor(

@@ -12,7 +12,8 @@ namespace facet {
 
 bool LooksLikePng(std::span<const std::byte> bytes);
 
-// See DecodeImage; gives pieces of `piece_rows` rows, the last maybe fewer. The whole file must be there and every checksum right.
+// See DecodeImage; gives pieces of `piece_rows` rows, the last maybe fewer. The whole file must be there and every
+// checksum right.
 void DecodePng(std::span<const std::byte> bytes, const std::string& name, int piece_rows, const PieceReceiver& receive);
 
 }  // namespace facet

@@ -169,8 +169,8 @@ glm::dvec3 DirectionOfCell(std::int32_t i, std::int32_t j, std::int32_t size) {
   return glm::dvec3(x, y, z) / std::sqrt(x * x + y * y + z * z);
 }
 
-// The light of each cell of `coarse` comes from the centroid of what its cells of `fine` shine: a sun keeps its place to
-// a fraction of a coarse cell, which leaves a tenth of the error that the cells' centres do.
+// The light of each cell of `coarse` comes from the centroid of what its cells of `fine` shine: a sun keeps its place
+// to a fraction of a coarse cell.
 std::vector<SourceTexel> MakeSource(const float* texels, const Cells& fine, const Cells& coarse) {
   struct Moments {
     glm::dvec3 light{0.0}, area{0.0};
@@ -209,8 +209,8 @@ constexpr int kFirstConvolved = 4;
 constexpr std::int32_t kConvolvedSize = 32;
 static_assert(kFirstConvolved + kConvolvedLobes + 1 == EnvironmentMap::kLevels);
 static_assert(kConvolvedSize == EnvironmentMap::kIrradianceSize);
-constexpr std::int32_t kNominalSize[EnvironmentMap::kLevels] = {0, 256, 128, 64, kConvolvedSize, kConvolvedSize, kConvolvedSize, kConvolvedSize,
-                                                             kConvolvedSize};
+constexpr std::int32_t kNominalSize[EnvironmentMap::kLevels] = {
+    0, 256, 128, 64, kConvolvedSize, kConvolvedSize, kConvolvedSize, kConvolvedSize, kConvolvedSize};
 constexpr int kSampleFactor[kFirstConvolved] = {0, 1, 2, 4};
 constexpr std::int32_t kSourceSize = 32, kCentroidSize = 128;
 constexpr std::int32_t kSmallestBase = 64;

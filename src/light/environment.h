@@ -1,15 +1,15 @@
 // Light from all around, prepared for shading.
 //
 // Directions and pictures: an equirectangular picture's column u in [0, 1) and row v in [0, 1] (top row first) show the
-// direction with  u = 0.5 + atan2(z, x) / (2 pi),  v = acos(y) / pi  (world axes, +Y up). Its centre lies towards +X, its
-// left and right edges towards -X; +Z is at u = 0.75. Same as three.js's equirectUv.
+// direction with  u = 0.5 + atan2(z, x) / (2 pi),  v = acos(y) / pi  (world axes, +Y up). Its centre lies towards +X,
+// its left and right edges towards -X; +Z is at u = 0.75. Same as three.js's equirectUv.
 //
-// Maps are octahedral (Praun and Hoppe, 1999, Spherical Parametrization and Remeshing; Engelhardt and Dachsbacher, 2008,
-// Octahedron Environment Maps): a direction d is divided by |x| + |y| + |z|; its x and z are the square's coordinates,
-// and where y < 0 the corners are folded over. Texels stand at the nodes of a grid that reaches from edge to edge, not in
-// the middle of its cells: the octahedron's edges, where the map has a crease, then run through texels, and bilinear
-// reading is exact there (half a texel off, a 32 x 32 map of half a sky shows 1.6 % errors along them); nor are borders
-// needed.
+// Maps are octahedral (Praun and Hoppe, 1999, Spherical Parametrization and Remeshing; Engelhardt and Dachsbacher,
+// 2008, Octahedron Environment Maps): a direction d is divided by |x| + |y| + |z|; its x and z are the square's
+// coordinates, and where y < 0 the corners are folded over. Texels stand at the nodes of a grid that reaches from edge
+// to edge, not in the middle of its cells: the octahedron's edges, where the map has a crease, then run through texels,
+// and bilinear reading is exact there (half a texel off, a 32 x 32 map of half a sky shows 1.6 % errors along them);
+// nor are borders needed.
 #pragma once
 
 #include <compare>
@@ -35,8 +35,8 @@ struct EnvironmentMap {
     std::int32_t offset = 0;
   };
 
-  // Level k is the radiance that a mirror of perceptual roughness k / (kLevels - 1) shows: GGX-prefiltered with view and
-  // normal along the reflection (Karis, 2013, Real Shading in Unreal Engine 4). Level 0 is the picture itself.
+  // Level k is the radiance that a mirror of perceptual roughness k / (kLevels - 1) shows: GGX-prefiltered with view
+  // and normal along the reflection (Karis, 2013, Real Shading in Unreal Engine 4). Level 0 is the picture itself.
   Level levels[kLevels];
   // The same for lanes, as they are gathered.
   std::int32_t level_offset[kLevels] = {};

@@ -86,7 +86,7 @@ void FilterLobeRow(const LobeRowTask& task) {
   }
 }
 
-// What light from `direction` weighs in each mean of a ConvolveRowTask.
+// What light from a direction weighs in each mean of a ConvolveRowTask.
 HWY_INLINE void LobeWeights(const ConvolveRowTask& task, Float n_dot_l, Float (&weight)[kConvolvedLobes + 1]) {
   static_assert(kConvolvedLobes == 4);
   const Float cosine = Max(n_dot_l, Float(0.0f));
@@ -107,7 +107,9 @@ HWY_INLINE void LobeWeights(const ConvolveRowTask& task, Float n_dot_l, Float (&
 void ConvolveRow(const ConvolveRowTask& task) {
   for (std::int32_t first = 0; first <= task.size; first += static_cast<std::int32_t>(LaneCount())) {
     const Vec3<Float> n = DirectionFromOctahedron(NodesOfRow(first, task.row, task.size));
-    const auto cosine_to = [&](float x, float y, float z) HWY_ATTR { return n.x * Float(x) + n.y * Float(y) + n.z * Float(z); };
+    const auto cosine_to = [&](float x, float y, float z) HWY_ATTR {
+      return n.x * Float(x) + n.y * Float(y) + n.z * Float(z);
+    };
     Vec3<Float> sum[kConvolvedLobes + 1] = {};
     Float norm[kConvolvedLobes + 1] = {};
     Float weight[kConvolvedLobes + 1];
@@ -122,7 +124,9 @@ void ConvolveRow(const ConvolveRowTask& task) {
       const Vec3<Float> power = {Float(source.r), Float(source.g), Float(source.b)};
       for (int k = 0; k <= kConvolvedLobes; ++k) sum[k] += power * weight[k];
     }
-    for (int k = 0; k <= kConvolvedLobes; ++k) StoreTexels(sum[k] / norm[k], Float(0.0f), first, task.size, task.out[k]);
+    for (int k = 0; k <= kConvolvedLobes; ++k) {
+      StoreTexels(sum[k] / norm[k], Float(0.0f), first, task.size, task.out[k]);
+    }
   }
 }
 

@@ -6,8 +6,8 @@
 
 namespace facet {
 
-// A row from an equirectangular picture of 4-float pixels; 2 x 2 samples a texel. The fourth number of each texel is the
-// solid angle that a cell has there.
+// A row from an equirectangular picture of 4-float pixels; 2 x 2 samples a texel. The fourth number of each texel is
+// the solid angle that a cell has there.
 struct OctahedronRowTask {
   const float* picture;
   std::int32_t picture_width, picture_height;
@@ -46,8 +46,8 @@ struct SourceTexel {
 
 constexpr int kConvolvedLobes = 4;
 
-// The same row of five squares at once: means of the source weighted by n_dot_l D(h; alpha[k]), with h between n and l, and,
-// as the last of them, by n_dot_l alone, which is a lobe of alpha 1 as well.
+// The same row of five squares at once: means of the source weighted by n_dot_l D(h; alpha[k]), with h between n and l,
+// and, as the last of them, by n_dot_l alone, which is a lobe of alpha 1 as well.
 struct ConvolveRowTask {
   const SourceTexel* source;
   std::int32_t source_count;

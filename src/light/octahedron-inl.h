@@ -39,9 +39,9 @@ HWY_INLINE Vec3<T> DirectionFromOctahedron(Vec2<T> uv) {
   return d * (T(1.0f) / Sqrt(Dot(d, d)));
 }
 
-// Bilinear between the four texels around column x and row y, both in [0, last + 1]. Texels are four floats; `row` is the
-// distance of rows and `offset` the place of the first texel, in floats; `last`, `row` and `offset` may differ between
-// lanes.
+// Bilinear between the four texels around column x and row y, both in [0, last + 1]. Texels are four floats; `row` is
+// the distance of rows and `offset` the place of the first texel, in floats; `last`, `row` and `offset` may differ
+// between lanes.
 template <class T>
 HWY_INLINE Vec3<T> SampleTexels(const float* texels, T x, T y, T last, IntOf<T> row, IntOf<T> offset) {
   const T x0 = Min(Floor(x), last);

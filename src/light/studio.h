@@ -8,10 +8,10 @@
 
 namespace facet {
 
-// A neutral photographer's studio: a grey room, brighter above, with a large soft box overhead, a key light to the front
-// left, a fill to the right and two strips behind for edges. No file is needed. Linear RGB, F32, equirectangular, mean
-// radiance over the sphere 0.65 (white that faces the lamps comes out just below white at exposure 0). `width` is twice
-// `height`.
+// A neutral photographer's studio: a grey room, brighter above, with a large soft box overhead, a key light to the
+// front left, a fill to the right and two strips behind for edges. No file is needed. Linear RGB, F32, equirectangular,
+// mean radiance over the sphere 0.65 (white that faces the lamps comes out just below white at exposure 0). `width` is
+// twice `height`.
 Image StudioPicture(int width, int height);
 
 // The size of the picture that lights scenes: nothing in the room is sharper than its pixels.

@@ -9,12 +9,12 @@
 // Both are reciprocal. A white base colour reflects all light at every roughness, metalness (mixtures too: each part
 // reflects all) and angle. The appendix couples diffuse by 1 - F(v.h) instead, which gains and loses at grazing angles.
 //
-// Under image-based light the directional terms become albedos (Karis, 2013, Real Shading in Unreal Engine 4: split sum;
-// Fdez-Aguera, 2019, A Multiple-Scattering Microfacet Model for Real-Time Image-based Lighting):
+// Under image-based light the directional terms become albedos (Karis, 2013, Real Shading in Unreal Engine 4: split
+// sum; Fdez-Aguera, 2019, A Multiple-Scattering Microfacet Model for Real-Time Image-based Lighting):
 //    prefiltered(d) (F0 A + B) + [ Fms (1 - E) + (1 - metallic) base (1 - Ed) ] irradiance / pi.
 // d is where the lobe's light comes from, which is the mirror direction only for smooth surfaces.
-// Occlusion multiplies all of that, the specular part too: a cavity sees less of its surroundings in every direction. It
-// never touches punctual lights or emission (glTF 2.0, section 3.9.2).
+// Occlusion multiplies all of that, the specular part too: a cavity sees less of its surroundings in every direction.
+// It never touches punctual lights or emission (glTF 2.0, section 3.9.2).
 
 #if defined(FACET_MATERIAL_CLOSURE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef FACET_MATERIAL_CLOSURE_INL_H_
@@ -144,10 +144,11 @@ HWY_INLINE Vec3<T> EvaluateClosure(const MetallicRoughnessClosure<T>& c, Vec3<T>
   return Select<T>(lit, brdf * n_dot_l, Vec3<T>{});
 }
 
-// Where a rough lobe gathers most of its light: between the mirror direction and the normal, because masking and the cosine
-// take more of its grazing side (Lagarde and de Rousiers, 2014, Moving Frostbite to Physically Based Rendering, section
-// 4.9.3). The weight of the normal is close to the best under soft lamps (src/light/fit_dominant_direction.py measures it)
-// and a little less on smoother surfaces, where the small suns of photographed skies ask for that. Not unit.
+// Where a rough lobe gathers most of its light: between the mirror direction and the normal, because masking and the
+// cosine take more of its grazing side (Lagarde and de Rousiers, 2014, Moving Frostbite to Physically Based Rendering,
+// section 4.9.3). The weight of the normal is close to the best under soft lamps (src/light/fit_dominant_direction.py
+// measures it) and a little less on smoother surfaces, where the small suns of photographed skies ask for that. Not
+// unit.
 template <class T>
 HWY_INLINE Vec3<T> DominantDirection(const MetallicRoughnessClosure<T>& c) {
   const Vec3<T> mirror = c.normal * (T(2.0f) * Dot(c.normal, c.view)) - c.view;

@@ -13,8 +13,8 @@
 #define FACET_RASTER_EDGES_H_
 namespace facet {
 
-// A triangle's three edge functions on the grid of sample positions of one block: a * x + b * y + c >= 0 inside, x and y
-// in sixteenths of a pixel from the block's corner. Exact.
+// A triangle's three edge functions on the grid of sample positions of one block: a * x + b * y + c >= 0 inside, x and
+// y in sixteenths of a pixel from the block's corner. Exact.
 struct BlockEdges {
   std::int32_t a[3], b[3], c[3];
 };
@@ -29,8 +29,8 @@ struct TriangleEdges {
       a[i] = r.y_fx8[i] - r.y_fx8[j];
       b[i] = r.x_fx8[j] - r.x_fx8[i];
       c[i] = -(a[i] * r.x_fx8[i] + b[i] * r.y_fx8[i]);
-      // The fill rule: a sample on an edge belongs to the triangle if the edge is a left one (inside lies towards +x) or
-      // a top one (horizontal, inside below). For integers, e > 0 is e - 1 >= 0.
+      // The fill rule: a sample on an edge belongs to the triangle if the edge is a left one (inside lies towards +x)
+      // or a top one (horizontal, inside below). For integers, e > 0 is e - 1 >= 0.
       const bool left_or_top = a[i] > 0 || (a[i] == 0 && b[i] > 0);
       if (!left_or_top) c[i] -= 1;
     }

@@ -25,7 +25,8 @@ void RasterOpaque(const TileTriangles& triangles, TileBuffers& tile);
 // layer that lies in an opaque surface is seen).
 enum class CollectDepth : std::uint8_t { Nearer, NearerOrEqual };
 
-// Collects the fragments of triangles that pass the depth test against the tile, which stays as it is. In triangle order.
+// Collects the fragments of triangles that pass the depth test against the tile, which stays as it is. In triangle
+// order.
 void RasterCollect(const TileTriangles& triangles, const TileBuffers& tile, FragmentList& out,
                    CollectDepth test = CollectDepth::Nearer);
 

@@ -50,9 +50,9 @@ struct ReferenceFilm {
 };
 
 // Of `settings` it reads the picture's size, threads, scene, animation, time, variant, camera, environment, background,
-// what it is without, and progress (called from this thread after each batch); no choice of approximation. Apart from `time_budget`, the
-// same bits on any number of threads. Throws Error as Render() does, and InvalidUsage for reference settings out of
-// range or a fragment shader of one's own.
+// what it is without, and progress (called from this thread after each batch); no choice of approximation. Apart from
+// `time_budget`, the same bits on any number of threads. Throws Error as Render() does, and InvalidUsage for reference
+// settings out of range or a fragment shader of one's own.
 ReferenceFilm RenderReference(const Scene& scene, const RenderSettings& settings,
                               const ReferenceSettings& reference = {});
 

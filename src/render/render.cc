@@ -85,22 +85,6 @@ std::size_t BytesOf(const std::deque<Primitive>& primitives) {
   return bytes;
 }
 
-// A shader, or the material model (null), where the environment is to be seen behind the scene and not to light it.
-class WithoutEnvironment final : public FragmentShader {
- public:
-  explicit WithoutEnvironment(const FragmentShader* shader) : shader_(shader) {}
-  void Shade(const ShadeTask& task) const override {
-    LightingData lighting = *task.lighting;
-    lighting.environment = nullptr;
-    ShadeTask dark = task;
-    dark.lighting = &lighting;
-    shader_ != nullptr ? shader_->Shade(dark) : ShadeMetallicRoughnessFragments(dark);
-  }
-
- private:
-  const FragmentShader* shader_;
-};
-
 }  // namespace
 
 // What frames share. Each part is made anew when the settings that it was made for are others.
@@ -139,10 +123,9 @@ class Renderer::Frames {
     film.pixels.reserve(pixel_count);
     PreferHugePages(film.pixels.data(), pixel_count * sizeof(glm::vec4));
     film.pixels.resize(pixel_count);
-    const WithoutEnvironment unlit_by_background(settings.shader);
-    RenderSettings shaded = settings;
-    if (environment != nullptr && !plan.environment_light) shaded.shader = &unlit_by_background;
-    RunTiles({view, plan, geometry_, grid, lighting, shaded, settings.shader == nullptr}, film, stats);
+    LightingData lit = lighting;
+    if (!plan.environment_light) lit.environment = nullptr;  // seen behind the scene at most
+    RunTiles({view, plan, geometry_, grid, lit, lighting, settings}, film, stats);
     stats.raster_seconds = stage.Lap();
     stats.total_seconds = total.Lap();
     if (settings.progress) settings.progress(1.0);

@@ -22,9 +22,9 @@ struct FrameTextures {
   std::vector<Entry> entries;  // as many
 };
 
-// Decodes what visible materials read and `textures` lacks, and fills the texture slots of the plan's materials. An image
-// that cannot be decoded gives a warning, and the materials do without it. Throws Error(MissingModule) where an image
-// needs a module that is not installed, Error(OutOfMemory) for images beyond the limits.
+// Decodes what visible materials read and `textures` lacks, and fills the texture slots of the plan's materials. An
+// image that cannot be decoded gives a warning, and the materials do without it. Throws Error(MissingModule) where an
+// image needs a module that is not installed, Error(OutOfMemory) for images beyond the limits.
 void DecodeTextures(const Scene& scene, const std::vector<bool>& material_visible, TexelBits texels, FramePlan& plan,
                     FrameTextures& textures, RenderStats& stats);
 

@@ -27,8 +27,8 @@ struct TileCounts {
   std::uint64_t shaded = 0, blended = 0, covered = 0, non_finite = 0;
 };
 
-// Where the fragments of a pixel are shaded, by which of its samples they cover: the pixel's centre when they cover all,
-// else the centroid of those they do, which lies within the triangle.
+// Where the fragments of a pixel are shaded, by which of its samples they cover: the pixel's centre when they cover
+// all, else the centroid of those they do, which lies within the triangle.
 class ShadingPositions {
  public:
   explicit ShadingPositions(int samples) {
@@ -123,9 +123,9 @@ class TileWorker final : public RecordTable {
   }
 
   // Alpha-tested triangles, in batches: their fragments are collected against the depth of the opaque ones, their alpha
-  // alone is shaded, and those that pass are written in order, each against the depth of that moment. (Collected against
-  // that depth, which samples a fragment covers, hence where its alpha is read, would depend on where batches end, and so
-  // on the tile's size.)
+  // alone is shaded, and those that pass are written in order, each against the depth of that moment. (Collected
+  // against that depth, which samples a fragment covers, hence where its alpha is read, would depend on where batches
+  // end, and so on the tile's size.)
   void DrawMasked(const std::vector<TileRun>& runs) {
     constexpr std::size_t kBatch = 64;  // triangles
     behind_masked_ = tile_;
@@ -190,12 +190,14 @@ class TileWorker final : public RecordTable {
     return std::abs(area2) < longest2 / 128;
   }
 
-  // Those lights that reach the tile's fragments: all where there are few, or nothing to bound the fragments with.
+  // Those lights that reach the tile's fragments: all where there are few, or nothing to bound the fragments with, and
+  // for shaders of users, who may count them.
   void ChooseLights(const FragmentList& list) {
     constexpr int kFew = 4;
     constexpr double kBorder = 2.0;  // pixels: lines and points are wider than the places that they are lit at
     lighting_ = in_.lighting;
-    if (!in_.cull_lights || in_.lighting.light_count <= kFew || !in_.view.perspective) return;
+    const bool all = in_.settings.shader != nullptr || in_.lighting.light_count <= kFew || !in_.view.perspective;
+    if (all) return;
     float nearest = 0.0f, farthest = std::numeric_limits<float>::infinity();  // depth is 1 / distance
     std::int32_t last_number = kNoRecord;
     for (std::size_t i = 0; i < list.Size(); ++i) {
@@ -306,7 +308,7 @@ class TileWorker final : public RecordTable {
       task.whole[c] = directions_.whole[c];
     }
     task.width = tile_.width;
-    task.lighting = &in_.lighting;
+    task.lighting = &in_.background;
     for (int y = 0; y < tile_.height; ++y) {
       for (int c = 0; c < 3; ++c) task.row[c] = directions_.row[c][std::size_t(tile_.y0 + y)];
       task.pixels = &pixels[std::size_t(y) * std::size_t(tile_.tile_size)].x;

@@ -14,9 +14,9 @@ struct TilePassInput {
   const FramePlan& plan;
   const FrameGeometry& geometry;
   const TileGrid& grid;
-  const LightingData& lighting;
+  const LightingData& lighting;    // of the scene
+  const LightingData& background;  // what is seen behind it
   const RenderSettings& settings;
-  bool cull_lights;  // leave out those that do not reach a tile; a user's shader sees them all
 };
 
 // Fills the film (sized by the caller) and the counts of `stats`.

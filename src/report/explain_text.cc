@@ -56,16 +56,6 @@ std::string Bytes(double bytes) {
   return std::string(bytes < 0.0 ? "-" : "") + BytesWords(bytes < 0.0 ? -bytes : bytes);
 }
 
-std::string Grouped(std::uint64_t value) {
-  const std::string digits = std::to_string(value);
-  std::string text;
-  for (std::size_t i = 0; i < digits.size(); ++i) {
-    if (i > 0 && (digits.size() - i) % 3 == 0) text += ',';
-    text += digits[i];
-  }
-  return text;
-}
-
 std::string Joined(const std::vector<std::string>& words) {
   std::string text;
   for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;

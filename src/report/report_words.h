@@ -1,6 +1,7 @@
 // The numbers of an error report in words.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "facet/report.h"
@@ -19,5 +20,8 @@ std::string ErrorWords(double error);
 
 // "10⁻⁷"
 std::string PowerOfTen(int exponent);
+
+// 1234567 as "1,234,567".
+std::string Grouped(std::uint64_t value);
 
 }  // namespace facet

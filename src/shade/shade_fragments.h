@@ -11,8 +11,8 @@ void ShadeMetallicRoughnessFragments(const ShadeTask& task);
 // Alpha alone, for the alpha test. Fills task.alpha.
 void ShadeAlpha(const ShadeTask& task);
 
-// The environment behind a row of pixels: laid under those whose coverage is below 1. The direction from the eye through
-// pixel x (world axes, any length) is column[.][x] + row + whole.
+// The environment behind a row of pixels: laid under those whose coverage is below 1. The direction from the eye
+// through pixel x (world axes, any length) is column[.][x] + row + whole.
 struct BackgroundTask {
   const double* column[3] = {};
   double row[3] = {}, whole[3] = {};

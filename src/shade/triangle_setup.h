@@ -6,8 +6,9 @@
 
 namespace facet {
 
-// Layout of a setup: numbers of float, which lanes read by fours (the fourth may be a neighbour's). Attributes stand vertex after vertex. World axes;
-// positions relative to the eye. Normals, tangents and handedness are turned to the viewer's side.
+// Layout of a setup: numbers of float, which lanes read by fours (the fourth may be a neighbour's). Attributes stand
+// vertex after vertex. World axes; positions relative to the eye. Normals, tangents and handedness are turned to the
+// viewer's side.
 struct SetupLayout {
   // Perspective weights e_i(x, y) = plane[3 i] * x + plane[3 i + 1] * y + plane[3 i + 2], x and y in pixels from the
   // anchor; barycentric weight i is e_i / (e_0 + e_1 + e_2).
@@ -24,9 +25,9 @@ static_assert(SetupLayout::kStride % 4 == 0);
 // Fills setup[0, kStride) for the primitive of `record`; of the attributes only those that `material` reads.
 // `anchor_x`, `anchor_y`: pixels.
 //
-// The weights are the inverse of the matrix of the vertices in homogeneous screen space (Olano and Greer 1997, "Triangle
-// Scan Conversion using 2D Homogeneous Coordinates"), so they need no clipping, and they are computed in double from the
-// file's positions, so they do not suffer from snapping.
+// The weights are the inverse of the matrix of the vertices in homogeneous screen space (Olano and Greer 1997,
+// "Triangle Scan Conversion using 2D Homogeneous Coordinates"), so they need no clipping, and they are computed in
+// double from the file's positions, so they do not suffer from snapping.
 void SetUpTriangle(const FrameView& view, const FrameDrawable& drawable, const FrameMaterial& material,
                    const TriangleRecord& record, int anchor_x, int anchor_y, float* setup);
 

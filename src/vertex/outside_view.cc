@@ -3,7 +3,8 @@
 namespace facet {
 namespace {
 
-// What the vertex stage may err by, in parts of the sum of the absolute values of its terms: some ten roundings to float.
+// What the vertex stage may err by, in parts of the sum of the absolute values of its terms: some ten roundings to
+// float.
 constexpr double kRounding = 0x1p-19;
 
 // factor . (x, y, distance) + constant over the box, from above.

@@ -138,8 +138,8 @@ HWY_INLINE hn::Vec<D> EveryFourthRow(D d, const float* p, const std::int32_t* at
 }
 #endif
 
-// The four numbers p[index], p[index + 1], ... as T. One wide load a lane and a transposition: processors gather element
-// by element, so four gathers take about four times as long.
+// The four numbers p[index], p[index + 1], ... as T. One wide load a lane and a transposition: processors gather
+// element by element, so four gathers take about four times as long.
 template <class T>
 HWY_INLINE Vec4<T> FetchVec4(const float* p, IntOf<T> index) {
   if constexpr (!std::is_same_v<T, Float>) {
