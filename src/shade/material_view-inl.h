@@ -20,19 +20,41 @@ namespace HWY_NAMESPACE {
 template <class T>
 class TextureReader {
  public:
+  // `surface` must outlive the reader, and stay as it is until the next ReadAhead().
   HWY_INLINE explicit TextureReader(const Surface<T>& surface) : s_(surface) {}
 
   template <int kChannels>
   HWY_INLINE Vec4<T> Read(const TextureSlot& slot) {
-    if (made_for_ == nullptr || !HaveSameTaps(*made_for_, slot)) {
-      const int k = slot.uv_slot;
-      MakeTextureTaps(slot, s_.uv[k], s_.duv_dx[k], s_.duv_dy[k], taps_);
-      made_for_ = &slot;
-    }
+    Find(slot);
     return ReadTexture<kChannels>(slot, taps_);
   }
 
+  // Finds the texels of the material's first texture, and asks for the memory of all that stand at the same places. It
+  // takes long to arrive: call this for a new surface some work before it is shaded.
+  HWY_INLINE void ReadAhead(const FrameMaterial& m) {
+    made_for_ = nullptr;
+    const auto ahead = [&](MaterialFeature feature, const TextureSlot& slot) HWY_ATTR {
+      if (!m.Has(feature)) return;
+      if (made_for_ == nullptr) Find(slot);
+      if (HaveSameTaps(*made_for_, slot)) PrefetchTexels(*slot.data, taps_);
+    };
+    ahead(kBaseColorTexture, m.base_color_texture);
+    ahead(kMetallicRoughnessTexture, m.metallic_roughness_texture);
+    ahead(kOcclusionTexture, m.occlusion_texture);
+    ahead(kNormalTexture, m.normal_texture);
+    ahead(kEmissiveTexture, m.emissive_texture);
+  }
+
+  HWY_INLINE bool IsOf(const Surface<T>& surface) const { return &surface == &s_; }
+
  private:
+  HWY_INLINE void Find(const TextureSlot& slot) {
+    if (made_for_ != nullptr && HaveSameTaps(*made_for_, slot)) return;
+    const int k = slot.uv_slot;
+    MakeTextureTaps(slot, s_.uv[k], s_.duv_dx[k], s_.duv_dy[k], taps_);
+    made_for_ = &slot;
+  }
+
   const Surface<T>& s_;
   const TextureSlot* made_for_ = nullptr;
   TextureTaps<T> taps_;
@@ -42,18 +64,22 @@ class TextureReader {
 template <class T>
 class MaterialView {
  public:
-  HWY_INLINE explicit MaterialView(const FrameMaterial& material) : m_(material) {}
+  // `ahead`: what reads the textures of its surface, which may have begun; null: nothing has.
+  HWY_INLINE explicit MaterialView(const FrameMaterial& material, TextureReader<T>* ahead = nullptr)
+      : m_(material), ahead_(ahead) {}
 
   HWY_INLINE bool Lit() const { return m_.Has(kLit); }
 
   // Factor times texture times vertex colour, straight alpha. Linear.
   HWY_INLINE Vec4<T> BaseColor(const Surface<T>& s) const {
-    TextureReader<T> textures(s);
+    TextureReader<T> own(s);
+    TextureReader<T>& textures = ReaderOf(s, own);
     return BaseColor(s, textures);
   }
 
   HWY_INLINE T Alpha(const Surface<T>& s) const {
-    TextureReader<T> textures(s);
+    TextureReader<T> own(s);
+    TextureReader<T>& textures = ReaderOf(s, own);
     T alpha = T(m_.base_color[3]) * s.color.w;
     if (m_.Has(kBaseColorTexture)) alpha = alpha * textures.template Read<kA>(m_.base_color_texture).w;
     return alpha;
@@ -61,18 +87,21 @@ class MaterialView {
 
   // The shading normal, unit: the interpolated one, bent by the normal texture.
   HWY_INLINE Vec3<T> Normal(const Surface<T>& s) const {
-    TextureReader<T> textures(s);
+    TextureReader<T> own(s);
+    TextureReader<T>& textures = ReaderOf(s, own);
     return Normal(s, textures);
   }
 
   HWY_INLINE Vec3<T> Emissive(const Surface<T>& s) const {
-    TextureReader<T> textures(s);
+    TextureReader<T> own(s);
+    TextureReader<T>& textures = ReaderOf(s, own);
     return Emissive(textures);
   }
 
   // All that the metallic-roughness model reads.
   HWY_INLINE MaterialInputs<T> Inputs(const Surface<T>& s) const {
-    TextureReader<T> textures(s);
+    TextureReader<T> own(s);
+    TextureReader<T>& textures = ReaderOf(s, own);
     MaterialInputs<T> in{};
     const Vec4<T> base = BaseColor(s, textures);
     in.base_color = Xyz(base);
@@ -95,6 +124,10 @@ class MaterialView {
   }
 
  private:
+  HWY_INLINE TextureReader<T>& ReaderOf(const Surface<T>& s, TextureReader<T>& own) const {
+    return ahead_ != nullptr && ahead_->IsOf(s) ? *ahead_ : own;
+  }
+
   HWY_INLINE Vec4<T> BaseColor(const Surface<T>& s, TextureReader<T>& textures) const {
     Vec4<T> c{T(m_.base_color[0]) * s.color.x, T(m_.base_color[1]) * s.color.y, T(m_.base_color[2]) * s.color.z,
               T(m_.base_color[3]) * s.color.w};
@@ -120,6 +153,7 @@ class MaterialView {
   }
 
   const FrameMaterial& m_;
+  TextureReader<T>* ahead_;
 };
 
 }  // namespace HWY_NAMESPACE

@@ -15,15 +15,24 @@ HWY_BEFORE_NAMESPACE();
 namespace facet {
 namespace HWY_NAMESPACE {
 
+// The next packet's texels are asked for before this one is shaded, so that their memory arrives meanwhile.
 // Lanes beyond the batch's end repeat numbers that the caller's padding holds; what they give is not read.
 template <class Shader>
 HWY_INLINE void ShadePackets(const ShadeTask& task, const Shader& shader) {
-  const MaterialView<Float> material(*task.material);
   const LightingView<Float> lighting(*task.lighting);
   const std::size_t lanes = LaneCount();
-  for (std::size_t i = 0; i < task.count; i += lanes) {
-    const Surface<Float> surface = InterpolateSurface<Float>(task, i);
-    const Shaded<Float> shaded = shader(surface, material, lighting);
+  Surface<Float> surfaces[2];  // of this packet and the next
+  TextureReader<Float> readers[2] = {TextureReader<Float>(surfaces[0]), TextureReader<Float>(surfaces[1])};
+  const auto prepare = [&](std::size_t first, int place) HWY_ATTR {
+    surfaces[place] = InterpolateSurface<Float>(task, first);
+    readers[place].ReadAhead(*task.material);
+  };
+  if (task.count > 0) prepare(0, 0);
+  int place = 0;
+  for (std::size_t i = 0; i < task.count; i += lanes, place = 1 - place) {
+    if (i + lanes < task.count) prepare(i + lanes, 1 - place);
+    const MaterialView<Float> material(*task.material, &readers[place]);
+    const Shaded<Float> shaded = shader(surfaces[place], material, lighting);
     const Vec3<Float> c = shaded.color;
     const Mask finite = IsFinite(c.x) & IsFinite(c.y) & IsFinite(c.z) & IsFinite(shaded.alpha);
     const Float zero(0.0f);

@@ -31,18 +31,11 @@ void LayOut(TextureData& texture, int picture_width, int picture_height, bool mi
     texture.level_offset[l] = static_cast<std::int32_t>(texels);
     texture.level_width[l] = width;
     texture.level_height[l] = height;
-    texture.level_pitch[l] = (width + 3) / 4;
-    texels += std::size_t(texture.level_pitch[l]) * std::size_t((height + 3) / 4) * 16;
+    texture.level_pitch[l] = width + 1;
+    texels += std::size_t(texture.level_pitch[l]) * std::size_t(height);
     if (!mips || (width == 1 && height == 1)) break;
   }
   texture.words.resize(texels * (texture.wide ? 2 : 1));
-  // Squares at the right and lower edges may be filled in part only; what no row fills is zero.
-  for (int l = 0; l < texture.levels; ++l) {
-    if (texture.level_width[l] % 4 == 0 && texture.level_height[l] % 4 == 0) continue;
-    const auto begin = texture.words.begin() + std::ptrdiff_t(texture.WordOf(l, 0));
-    std::fill(begin, l + 1 < texture.levels ? begin + std::ptrdiff_t(texture.WordOf(l + 1, 0) - texture.WordOf(l, 0))
-                                            : texture.words.end(), 0);
-  }
 }
 
 [[noreturn]] void Refuse(const Image& rows, int height) {

@@ -20,7 +20,8 @@ namespace HWY_NAMESPACE {
 // Which channels a caller wants: bits 1, 2, 4, 8 for R, G, B, A. The others stay zero and cost nothing.
 enum ChannelMask : int { kR = 1, kG = 2, kB = 4, kA = 8, kRgb = 7, kRgba = 15 };
 
-// The texels i and i + 1 on one axis, after wrapping, and how far the position lies towards the second.
+// The texels i and i + 1 on one axis, after wrapping, and how far the position lies towards the second: at a clamped or
+// mirrored edge, which repeats its texel, not at all.
 template <class T>
 struct AxisTaps {
   IntOf<T> first, second;
@@ -52,9 +53,10 @@ HWY_INLINE AxisTaps<T> MakeTaps(Wrap wrap, T position, IntOf<T> size, MaskOf<T> 
     };
     taps.first = wrapped(i);
     taps.second = wrapped(i + IntOf<T>(1));
-  } else {  // a mirrored edge repeats its texel, as a clamped one does
+  } else {
     taps.first = Max(Min(i, last), IntOf<T>(0));
-    taps.second = Max(Min(i + IntOf<T>(1), last), IntOf<T>(0));
+    taps.second = Min(taps.first + IntOf<T>(1), last);
+    taps.fraction = Select((whole < T(0.0f)) | (whole >= FromInt<T>(last)), T(0.0f), taps.fraction);
   }
   return taps;
 }
@@ -62,7 +64,7 @@ HWY_INLINE AxisTaps<T> MakeTaps(Wrap wrap, T position, IntOf<T> size, MaskOf<T> 
 // Where the texels of one bilinear footprint stand, and how far the position lies towards the second of each axis.
 template <class T>
 struct BilinearTap {
-  IntOf<T> texel[4];  // numbers in TextureData: top left, top right, bottom left, bottom right
+  IndexList<T> top, bottom;  // numbers of the left texels in TextureData; the right ones follow them
   T along_u, along_v;
 };
 
@@ -83,48 +85,56 @@ HWY_INLINE BilinearTap<T> MakeBilinearTap(const Sampler& sampler, Vec2<T> uv, co
                                           MaskOf<T> linear) {
   const AxisTaps<T> u = MakeTaps(sampler.wrap_u, uv.x, level.width, linear);
   const AxisTaps<T> v = MakeTaps(sampler.wrap_v, uv.y, level.height, linear);
-  const auto column = [](IntOf<T> x) HWY_ATTR { return ShiftLeft<4>(ShiftRightArithmetic<2>(x)) + (x & IntOf<T>(3)); };
-  const auto row = [&](IntOf<T> y) HWY_ATTR {
-    return level.offset + ShiftLeft<4>(ShiftRightArithmetic<2>(y) * level.pitch) + ShiftLeft<2>(y & IntOf<T>(3));
-  };
-  const IntOf<T> x0 = column(u.first), x1 = column(u.second), y0 = row(v.first), y1 = row(v.second);
-  return {{y0 + x0, y0 + x1, y1 + x0, y1 + x1}, u.fraction, v.fraction};
+  const IntOf<T> left = level.offset + u.first;
+  BilinearTap<T> tap;
+  tap.top = left + v.first * level.pitch;
+  tap.bottom = left + v.second * level.pitch;
+  tap.along_u = u.fraction;
+  tap.along_v = v.fraction;
+  return tap;
 }
 
+// The channels of a texel: `low` is its first word, `high` the second where there are two.
 template <int kChannels, bool kWide, class T>
-HWY_INLINE Vec4<T> FetchTexel(const std::int32_t* words, IntOf<T> texel) {
+HWY_INLINE Vec4<T> Channels(IntOf<T> low, IntOf<T> high) {
   Vec4<T> c{};
   if constexpr (kWide) {
     const T scale(1.0f / 65535.0f);
-    IntOf<T> rg(0), ba(0);
-    if constexpr ((kChannels & (kR | kG)) != 0 && (kChannels & (kB | kA)) != 0) {
-      FetchIntPair(words, texel, rg, ba);
-    } else if constexpr ((kChannels & (kR | kG)) != 0) {
-      rg = FetchInt(words, texel + texel);
-    } else {
-      ba = FetchInt(words + 1, texel + texel);
-    }
-    if constexpr ((kChannels & kR) != 0) c.x = FromInt<T>(rg & IntOf<T>(0xFFFF)) * scale;
-    if constexpr ((kChannels & kG) != 0) c.y = FromInt<T>(ShiftRightLogical<16>(rg)) * scale;
-    if constexpr ((kChannels & kB) != 0) c.z = FromInt<T>(ba & IntOf<T>(0xFFFF)) * scale;
-    if constexpr ((kChannels & kA) != 0) c.w = FromInt<T>(ShiftRightLogical<16>(ba)) * scale;
+    if constexpr ((kChannels & kR) != 0) c.x = FromInt<T>(low & IntOf<T>(0xFFFF)) * scale;
+    if constexpr ((kChannels & kG) != 0) c.y = FromInt<T>(ShiftRightLogical<16>(low)) * scale;
+    if constexpr ((kChannels & kB) != 0) c.z = FromInt<T>(high & IntOf<T>(0xFFFF)) * scale;
+    if constexpr ((kChannels & kA) != 0) c.w = FromInt<T>(ShiftRightLogical<16>(high)) * scale;
   } else {
-    const IntOf<T> rgba = FetchInt(words, texel);
     const T scale(1.0f / 255.0f);
-    if constexpr ((kChannels & kR) != 0) c.x = FromInt<T>(rgba & IntOf<T>(0xFF)) * scale;
-    if constexpr ((kChannels & kG) != 0) c.y = FromInt<T>(ShiftRightLogical<8>(rgba) & IntOf<T>(0xFF)) * scale;
-    if constexpr ((kChannels & kB) != 0) c.z = FromInt<T>(ShiftRightLogical<16>(rgba) & IntOf<T>(0xFF)) * scale;
-    if constexpr ((kChannels & kA) != 0) c.w = FromInt<T>(ShiftRightLogical<24>(rgba)) * scale;
+    if constexpr ((kChannels & kR) != 0) c.x = FromInt<T>(low & IntOf<T>(0xFF)) * scale;
+    if constexpr ((kChannels & kG) != 0) c.y = FromInt<T>(ShiftRightLogical<8>(low) & IntOf<T>(0xFF)) * scale;
+    if constexpr ((kChannels & kB) != 0) c.z = FromInt<T>(ShiftRightLogical<16>(low) & IntOf<T>(0xFF)) * scale;
+    if constexpr ((kChannels & kA) != 0) c.w = FromInt<T>(ShiftRightLogical<24>(low)) * scale;
   }
   return c;
 }
 
+// Two texels of a row.
+template <int kChannels, bool kWide, class T>
+HWY_INLINE void FetchNeighbours(const std::int32_t* words, const IndexList<T>& texel, Vec4<T>& left, Vec4<T>& right) {
+  if constexpr (kWide) {
+    IntOf<T> w[4];
+    FetchFour<2, T>(words, texel, w);
+    left = Channels<kChannels, true, T>(w[0], w[1]);
+    right = Channels<kChannels, true, T>(w[2], w[3]);
+  } else {
+    IntOf<T> w[2];
+    FetchTwo<1, T>(words, texel, w);
+    left = Channels<kChannels, false, T>(w[0], w[0]);
+    right = Channels<kChannels, false, T>(w[1], w[1]);
+  }
+}
+
 template <int kChannels, bool kWide, class T>
 HWY_INLINE Vec4<T> ReadBilinear(const std::int32_t* words, const BilinearTap<T>& tap) {
-  const Vec4<T> c00 = FetchTexel<kChannels, kWide, T>(words, tap.texel[0]);
-  const Vec4<T> c10 = FetchTexel<kChannels, kWide, T>(words, tap.texel[1]);
-  const Vec4<T> c01 = FetchTexel<kChannels, kWide, T>(words, tap.texel[2]);
-  const Vec4<T> c11 = FetchTexel<kChannels, kWide, T>(words, tap.texel[3]);
+  Vec4<T> c00, c10, c01, c11;
+  FetchNeighbours<kChannels, kWide, T>(words, tap.top, c00, c10);
+  FetchNeighbours<kChannels, kWide, T>(words, tap.bottom, c01, c11);
   const auto mix = [&](T a, T b, T c, T d) HWY_ATTR {
     const T top = a + (b - a) * tap.along_u, bottom = c + (d - c) * tap.along_u;
     return top + (bottom - top) * tap.along_v;
@@ -250,6 +260,27 @@ HWY_INLINE void MakeTextureTaps(const TextureSlot& slot, Vec2<T> uv_in, Vec2<T> 
     const Vec2<T> at{uv.x + footprint.major.x * along, uv.y + footprint.major.y * along};
     out.fine[i] = MakeBilinearTap(sampler, at, fine, linear);
     if (out.two_levels) out.coarse[i] = MakeBilinearTap(sampler, at, coarse, linear);
+  }
+}
+
+// Asks for the memory of texels that will be read soon, for one lane in `kStep`. (Inlined always: GCC drops calls of
+// functions that do nothing else.)
+template <int kStep, class T>
+HWY_INLINE void PrefetchRow(const std::int32_t* words, std::ptrdiff_t words_each, const IndexList<T>& texel) {
+  for (int lane = 0; lane < IndexList<T>::kLanes; lane += kStep) {
+    __builtin_prefetch(words + texel.of_lane[lane] * words_each);
+  }
+}
+
+// Of all that will be read at `taps`. Neighbouring lanes read neighbouring texels, so that every second lane, of the
+// coarser level every fourth, names nearly all the cache lines.
+template <class T>
+HWY_INLINE void PrefetchTexels(const TextureData& data, const TextureTaps<T>& taps) {
+  const std::int32_t* words = data.words.data();
+  const std::ptrdiff_t words_each = data.wide ? 2 : 1;
+  for (int i = 0; i < taps.count; ++i) {
+    PrefetchRow<2, T>(words, words_each, taps.fine[i].top);
+    if (taps.two_levels) PrefetchRow<4, T>(words, words_each, taps.coarse[i].top);
   }
 }
 

@@ -1,4 +1,4 @@
-// Textures as the samplers read them: linear light, tiled, with all mip levels.
+// Textures as the samplers read them: linear light, with all mip levels.
 #pragma once
 
 #include <cstddef>
@@ -19,14 +19,15 @@ enum class TextureRole : std::uint8_t {
   Data,   // normals, roughness, metalness, occlusion: as in the file
 };
 
-// One image with its mip levels. Texels lie in 4 x 4 squares, so that a bilinear footprint touches few cache lines:
-// texel (x, y) of level l is number
-//   level_offset[l] + ((y / 4) * level_pitch[l] + x / 4) * 16 + (y % 4) * 4 + x % 4.
+// One image with its mip levels: texel (x, y) of level l is number level_offset[l] + y * level_pitch[l] + x. A row ends
+// with its first texel once more, so that the two texels of a row that bilinear filtering needs always are neighbours,
+// and one load gets both. (Loads, not cache lines, are what reading textures waits for: squares of 4 x 4 texels, with
+// four loads a footprint, are slower. The extra texel also keeps rows from lying powers of two apart.)
 struct TextureData {
   bool wide = false;                // two words a texel (16 bits a channel, RG then BA) instead of one (8 bits, RGBA)
   int levels = 0;
   std::int32_t level_offset[kMaxTextureLevels] = {};  // texels
-  std::int32_t level_pitch[kMaxTextureLevels] = {};   // squares in a row
+  std::int32_t level_pitch[kMaxTextureLevels] = {};   // texels from row to row
   std::int32_t level_width[kMaxTextureLevels] = {};
   std::int32_t level_height[kMaxTextureLevels] = {};
   PageVector<std::int32_t> words;  // little-endian channels: R in the low bits
@@ -34,8 +35,7 @@ struct TextureData {
   std::size_t Bytes() const { return words.size() * sizeof(words[0]); }
   // Where row y of a level begins in `words`.
   std::size_t WordOf(int level, int y) const {
-    const std::size_t squares = std::size_t(y / 4) * std::size_t(level_pitch[level]);
-    return (std::size_t(level_offset[level]) + squares * 16 + std::size_t(y % 4) * 4) * (wide ? 2 : 1);
+    return (std::size_t(level_offset[level]) + std::size_t(y) * std::size_t(level_pitch[level])) * (wide ? 2 : 1);
   }
 };
 

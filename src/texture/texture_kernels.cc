@@ -3,7 +3,6 @@
 #include "hwy/foreach_target.h"
 
 #include <algorithm>
-#include <cstring>
 
 #include "facet/shader/dispatch.h"
 #include "facet/shader/lane-inl.h"
@@ -19,29 +18,23 @@ HWY_INLINE void StoreRowOf(const StoreRowTask& task) {
   const Float scale(kWide ? 65535.0f : 255.0f), half(0.5f);
   const Int full(kWide ? 65535 : 255);
   const auto lanes = static_cast<std::int32_t>(LaneCount());
-  const std::int32_t group = std::min(lanes, 4);  // texels that stay together
-  std::int32_t words[kWords * kMaxLanes];
   for (std::int32_t x = 0; x < task.width; x += lanes) {
     const auto quantised = [&](const float* plane) HWY_ATTR {
       return plane != nullptr ? TruncateToInt(LoadFloat(plane + x) * scale + half) : full;
     };
     const Int r = quantised(task.planes[0]), g = quantised(task.planes[1]), b = quantised(task.planes[2]),
               a = quantised(task.planes[3]);
+    const std::int32_t count = std::min(lanes, task.width - x);
+    std::int32_t last[kWords * kMaxLanes];
+    std::int32_t* words = count == lanes ? task.words + x * kWords : last;
     if constexpr (kWide) {
       hn::StoreInterleaved2((r | ShiftLeft<16>(g)).raw, (b | ShiftLeft<16>(a)).raw, IntTag(), words);
     } else {
       Store(r | ShiftLeft<8>(g) | ShiftLeft<16>(b) | ShiftLeft<24>(a), words);
     }
-    const std::int32_t count = std::min(lanes, task.width - x);
-    for (std::int32_t i = 0; i < count; i += group) {
-      const std::int32_t texel = (x + i) / 4 * 16 + (x + i) % 4;
-      if (group == 4 && i + 4 <= count) {
-        std::memcpy(task.words + texel * kWords, words + i * kWords, sizeof(std::int32_t) * 4 * kWords);
-      } else {
-        std::copy_n(words + i * kWords, std::min(group, count - i) * kWords, task.words + texel * kWords);
-      }
-    }
+    if (words == last) std::copy_n(last, count * kWords, task.words + x * kWords);
   }
+  std::copy_n(task.words, kWords, task.words + task.width * kWords);
 }
 
 void StoreRow(const StoreRowTask& task) { task.wide ? StoreRowOf<true>(task) : StoreRowOf<false>(task); }

@@ -9,7 +9,7 @@ namespace facet {
 
 inline constexpr std::size_t kRowSlack = 64;
 
-// A row of texels in [0, 1], rounded to 8 or 16 bits, to its place in squares of 4 x 4 (see TextureData).
+// A row of texels in [0, 1], rounded to 8 or 16 bits, and its first texel once more at the end (see TextureData).
 struct StoreRowTask {
   const float* planes[4];  // R, G, B, A; null: all are 1
   std::int32_t width;

@@ -140,9 +140,20 @@ TEST(BuildTexture, WithoutMipsOnlyLevelZeroIsKept) {
   const TextureData with = BuildTexture(image, TextureRole::Data, true),
                     without = BuildTexture(image, TextureRole::Data, false);
   EXPECT_EQ(without.levels, 1);
-  EXPECT_EQ(without.Bytes(), 20u * 12u * 4u);
+  EXPECT_EQ(without.Bytes(), 21u * 12u * 4u);
   EXPECT_LT(with.Bytes(), 2 * without.Bytes());
   for (std::size_t i = 0; i < without.words.size(); ++i) ASSERT_EQ(without.words[i], with.words[i]);
+}
+
+TEST(BuildTexture, RowsEndWithTheirFirstTexel) {
+  for (const TexelBits bits : {TexelBits::Eight, TexelBits::Sixteen}) {
+    const TextureData t = BuildTexture(RandomImage(37, 5, 4, ChannelType::U8, 11), TextureRole::Data, true, bits);
+    for (int level = 0; level < t.levels; ++level) {
+      for (int y = 0; y < t.level_height[level]; ++y) {
+        ASSERT_EQ(ReadTexel(t, level, t.level_width[level], y), ReadTexel(t, level, 0, y)) << level << " " << y;
+      }
+    }
+  }
 }
 
 TEST(BuildTexture, EightBitDataIsKeptToTheBit) {

@@ -8,8 +8,8 @@
 namespace facet {
 
 inline std::array<double, 4> ReadTexel(const TextureData& t, int level, int x, int y) {
-  const std::size_t texel = std::size_t(t.level_offset[level]) +
-                            std::size_t((y / 4) * t.level_pitch[level] + x / 4) * 16 + std::size_t((y % 4) * 4 + x % 4);
+  const std::size_t texel =
+      std::size_t(t.level_offset[level]) + std::size_t(y) * std::size_t(t.level_pitch[level]) + std::size_t(x);
   std::array<double, 4> c{};
   for (std::size_t k = 0; k < 4; ++k) {
     const auto word = static_cast<std::uint32_t>(t.words.at(t.wide ? 2 * texel + k / 2 : texel));

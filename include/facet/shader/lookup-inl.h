@@ -8,6 +8,7 @@
 #define FACET_SHADER_LOOKUP_INL_H_
 #endif
 
+#include <cstddef>
 #include <cstdint>
 #include <type_traits>
 
@@ -102,44 +103,89 @@ HWY_INLINE Int FetchOf16(const std::int32_t* p, Int index) {
 }
 HWY_INLINE std::int32_t FetchOf16(const std::int32_t* p, std::int32_t index) { return p[index]; }
 
-// p[2 index] and p[2 index + 1].
-HWY_INLINE void FetchIntPair(const std::int32_t* p, Int index, Int& first, Int& second) {
-#if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX2  // half as many elements to gather
-  const IntTag d;
-  const hn::Repartition<std::int64_t, IntTag> wide;
-  const auto* pairs = reinterpret_cast<const std::int64_t*>(p);
-  const auto gather = [&](auto half) HWY_ATTR {
-    return hn::BitCast(d, hn::GatherIndex(wide, pairs, hn::PromoteTo(wide, half)));
-  };
-  const auto low = gather(hn::LowerHalf(index.raw)), high = gather(hn::UpperHalf(hn::Half<IntTag>(), index.raw));
-  first = hn::ConcatEven(d, high, low);
-  second = hn::ConcatOdd(d, high, low);
-#else
-  const Int twice = index + index;
-  first = Gather(p, twice);
-  second = Gather(p + 1, twice);
-#endif
-}
-HWY_INLINE void FetchIntPair(const std::int32_t* p, std::int32_t index, std::int32_t& first, std::int32_t& second) {
-  first = p[2 * index];
-  second = p[2 * index + 1];
-}
-
+// Several numbers that stand side by side in memory, p[index], p[index + 1] and so on, for each lane: one wide load a
+// lane and a transposition. Processors gather element by element, so a gather for each takes about as many times as long.
 #if HWY_TARGET != HWY_SCALAR
-// The four numbers at p + at[0], those at p + at[4], and so on, side by side.
-template <class D>
-HWY_INLINE hn::Vec<D> EveryFourthRow(D d, const float* p, const std::int32_t* at) {
-  if constexpr (hn::MaxLanes(D()) == 4) {
-    return hn::LoadU(d, p + at[0]);
+// The two numbers at p + at[0], those at p + at[1], and so on, side by side.
+template <int kScale, class D64>
+HWY_INLINE hn::Vec<D64> PairsInOrder(D64 d, const std::int32_t* p, const std::int32_t* at) {
+  if constexpr (hn::MaxLanes(D64()) == 1) {
+    return hn::LoadU(d, reinterpret_cast<const std::int64_t*>(p + std::ptrdiff_t(at[0]) * kScale));
   } else {
-    const hn::Half<D> half;
-    return hn::Combine(d, EveryFourthRow(half, p, at + hn::MaxLanes(half)), EveryFourthRow(half, p, at));
+    const hn::Half<D64> half;
+    return hn::Combine(d, PairsInOrder<kScale>(half, p, at + hn::MaxLanes(half)), PairsInOrder<kScale>(half, p, at));
   }
 }
+// The four numbers at p + at[0], those at p + at[4], and so on, side by side.
+template <int kScale, class D, class Number>
+HWY_INLINE hn::Vec<D> EveryFourthRow(D d, const Number* p, const std::int32_t* at) {
+  if constexpr (hn::MaxLanes(D()) == 4) {
+    return hn::LoadU(d, p + std::ptrdiff_t(at[0]) * kScale);
+  } else {
+    const hn::Half<D> half;
+    return hn::Combine(d, EveryFourthRow<kScale>(half, p, at + hn::MaxLanes(half)), EveryFourthRow<kScale>(half, p, at));
+  }
+}
+// Four numbers for each lane.
+template <int kScale, class D, class Number>
+HWY_INLINE void TransposedRows(D d, const Number* p, const std::int32_t* at, hn::Vec<D>* out) {
+  const auto r0 = EveryFourthRow<kScale>(d, p, at), r1 = EveryFourthRow<kScale>(d, p, at + 1), r2 = EveryFourthRow<kScale>(d, p, at + 2),
+             r3 = EveryFourthRow<kScale>(d, p, at + 3);
+  const auto xy02 = hn::InterleaveLower(d, r0, r2), zw02 = hn::InterleaveUpper(d, r0, r2);
+  const auto xy13 = hn::InterleaveLower(d, r1, r3), zw13 = hn::InterleaveUpper(d, r1, r3);
+  out[0] = hn::InterleaveLower(d, xy02, xy13);
+  out[1] = hn::InterleaveUpper(d, xy02, xy13);
+  out[2] = hn::InterleaveLower(d, zw02, zw13);
+  out[3] = hn::InterleaveUpper(d, zw02, zw13);
+}
 #endif
 
-// The four numbers p[index], p[index + 1], ... as T. One wide load a lane and a transposition: processors gather
-// element by element, so four gathers take about four times as long.
+// The index of each lane, in memory, where loads one by one want it.
+template <class T>
+struct IndexList {
+  static constexpr int kLanes = sizeof(IntOf<T>) / sizeof(std::int32_t);
+  alignas(IntOf<T>) std::int32_t of_lane[kLanes];
+  HWY_INLINE void operator=(IntOf<T> index) {
+    if constexpr (std::is_same_v<T, Float>) {
+      Store(index, of_lane);
+    } else {
+      of_lane[0] = index;
+    }
+  }
+};
+
+// p[kScale * index + i] for i = 0 and 1.
+template <int kScale, class T>
+HWY_INLINE void FetchTwo(const std::int32_t* p, const IndexList<T>& index, IntOf<T>* out) {
+  const std::int32_t* at = index.of_lane;
+#if HWY_TARGET != HWY_SCALAR
+  if constexpr (std::is_same_v<T, Float>) {
+    const IntTag d;
+    const hn::Repartition<std::int64_t, IntTag> pairs;
+    const auto low = hn::BitCast(d, PairsInOrder<kScale>(pairs, p, at));
+    const auto high = hn::BitCast(d, PairsInOrder<kScale>(pairs, p, at + hn::MaxLanes(d) / 2));
+    out[0] = hn::ConcatEven(d, high, low);
+    out[1] = hn::ConcatOdd(d, high, low);
+    return;
+  }
+#endif
+  for (int i = 0; i < 2; ++i) out[i] = IntOf<T>(p[kScale * at[0] + i]);
+}
+// For i = 0, 1, 2 and 3.
+template <int kScale, class T>
+HWY_INLINE void FetchFour(const std::int32_t* p, const IndexList<T>& index, IntOf<T>* out) {
+  const std::int32_t* at = index.of_lane;
+#if HWY_TARGET != HWY_SCALAR
+  if constexpr (std::is_same_v<T, Float>) {
+    Int::Raw rows[4];
+    TransposedRows<kScale>(IntTag(), p, at, rows);
+    for (int i = 0; i < 4; ++i) out[i] = rows[i];
+    return;
+  }
+#endif
+  for (int i = 0; i < 4; ++i) out[i] = IntOf<T>(p[kScale * at[0] + i]);
+}
+
 template <class T>
 HWY_INLINE Vec4<T> FetchVec4(const float* p, IntOf<T> index) {
   if constexpr (!std::is_same_v<T, Float>) {
@@ -148,15 +194,11 @@ HWY_INLINE Vec4<T> FetchVec4(const float* p, IntOf<T> index) {
 #if HWY_TARGET == HWY_SCALAR
     return {Gather(p, index), Gather(p + 1, index), Gather(p + 2, index), Gather(p + 3, index)};
 #else
-    const FloatTag d;
     alignas(64) std::int32_t at[kMaxLanes];
     Store(index, at);
-    const auto r0 = EveryFourthRow(d, p, at), r1 = EveryFourthRow(d, p, at + 1), r2 = EveryFourthRow(d, p, at + 2),
-               r3 = EveryFourthRow(d, p, at + 3);
-    const auto xy02 = hn::InterleaveLower(d, r0, r2), zw02 = hn::InterleaveUpper(d, r0, r2);
-    const auto xy13 = hn::InterleaveLower(d, r1, r3), zw13 = hn::InterleaveUpper(d, r1, r3);
-    return {hn::InterleaveLower(d, xy02, xy13), hn::InterleaveUpper(d, xy02, xy13),
-            hn::InterleaveLower(d, zw02, zw13), hn::InterleaveUpper(d, zw02, zw13)};
+    Float::Raw rows[4];
+    TransposedRows<1>(FloatTag(), p, at, rows);
+    return {rows[0], rows[1], rows[2], rows[3]};
 #endif
   }
 }
