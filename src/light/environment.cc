@@ -269,6 +269,23 @@ void FillIrradiance(EnvironmentMap* map, const std::vector<SourceTexel>& source,
 
 }  // namespace
 
+void LayOutLevels(std::int32_t base, EnvironmentMap& map) {
+  std::int32_t floats = 0;
+  const auto place = [&floats](std::int32_t size) {
+    const Level level{size, floats};
+    floats += (size + 1) * (size + 1) * 4;
+    return level;
+  };
+  for (int k = 0; k < EnvironmentMap::kLevels; ++k) {
+    map.levels[k] = place(k == 0 ? base : std::min(base / 2, kNominalSize[k]));
+    map.level_offset[k] = map.levels[k].offset;
+    map.level_size[k] = static_cast<float>(map.levels[k].size);
+  }
+  map.irradiance = place(EnvironmentMap::kIrradianceSize);
+  map.texels.assign(std::size_t(floats), 0.0f);
+  map.texel_data = map.texels.data();
+}
+
 std::shared_ptr<const EnvironmentMap> PrefilterEnvironment(const Image& equirectangular,
                                                            const EnvironmentOptions& options) {
   CheckImage(equirectangular, "environment");
@@ -291,21 +308,7 @@ std::shared_ptr<const EnvironmentMap> PrefilterEnvironment(const Image& equirect
     height /= 2;
   }
 
-  // The levels, one after the other, then the irradiance.
-  std::int32_t floats = 0;
-  const auto place = [&floats](std::int32_t size) {
-    const Level level{size, floats};
-    floats += (size + 1) * (size + 1) * 4;
-    return level;
-  };
-  for (int k = 0; k < EnvironmentMap::kLevels; ++k) {
-    map->levels[k] = place(k == 0 ? base : std::min(base / 2, kNominalSize[k]));
-    map->level_offset[k] = map->levels[k].offset;
-    map->level_size[k] = static_cast<float>(map->levels[k].size);
-  }
-  map->irradiance = place(EnvironmentMap::kIrradianceSize);
-  map->texels.assign(std::size_t(floats), 0.0f);
-  map->texel_data = map->texels.data();
+  LayOutLevels(base, *map);
 
   ParallelFor(std::size_t(base) + 1, 8, [&](std::size_t begin, std::size_t end) {
     for (auto row = std::int32_t(begin); row < std::int32_t(end); ++row) {

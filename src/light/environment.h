@@ -75,4 +75,8 @@ struct EnvironmentOptions {
 std::shared_ptr<const EnvironmentMap> PrefilterEnvironment(const Image& equirectangular,
                                                            const EnvironmentOptions& options = {});
 
+// The first step of that: where the levels stand, sharpest of `base` texels, one after the other, then the irradiance;
+// all black.
+void LayOutLevels(std::int32_t base, EnvironmentMap& map);
+
 }  // namespace facet

@@ -3,9 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/glm.hpp>
-#include <map>
-#include <mutex>
-#include <utility>
 #include <vector>
 
 #include "base/check.h"
@@ -120,21 +117,6 @@ Image StudioPicture(int width, int height) {
     for (int c = 0; c < 3; ++c) out[3 * i + c] = static_cast<float>(radiance[i] * scale);
   }
   return image;
-}
-
-std::shared_ptr<const EnvironmentMap> StudioEnvironment(EnvironmentOptions options) {
-  options.max_size = std::min(options.max_size, kStudioMaxSize);
-  static std::mutex mutex;
-  static std::map<EnvironmentOptions, std::shared_ptr<const EnvironmentMap>> prepared;
-  {
-    const std::lock_guard<std::mutex> lock(mutex);
-    if (const auto known = prepared.find(options); known != prepared.end()) return known->second;
-  }
-  // Outside of the lock, which must not be held while this thread helps with other tasks; whoever is second throws its
-  // own away.
-  auto map = PrefilterEnvironment(StudioPicture(kStudioWidth, kStudioHeight), options);
-  const std::lock_guard<std::mutex> lock(mutex);
-  return prepared.try_emplace(options, std::move(map)).first->second;
 }
 
 }  // namespace facet

@@ -20,7 +20,7 @@ inline constexpr int kStudioWidth = 512, kStudioHeight = 256;
 // The sharpest level that it is prepared with: finer ones change no picture by what one could see (docs/accuracy.md).
 inline constexpr int kStudioMaxSize = 128;
 
-// The same, prepared; made once per process and value of `options`. Thread-safe.
+// The same, prepared: for the default options by the build, else once per process and value of `options`. Thread-safe.
 std::shared_ptr<const EnvironmentMap> StudioEnvironment(EnvironmentOptions options = {});
 
 }  // namespace facet

@@ -15,7 +15,7 @@
 #include "facet/report.h"
 #include "facet/version.h"
 #include "image/codec.h"
-#include "light/studio.h"
+#include "light/studio_table.h"
 #include "reference/reference.h"
 #include "render/render_in_double.h"
 #include "report/measure.h"
@@ -73,11 +73,8 @@ class Sweep {
  public:
   Sweep(const LoadedScene& loaded, const RenderRequest& request, RenderSettings resolved, const ReportSettings& report)
       : scene_(loaded.scene), request_(request), resolved_(std::move(resolved)), report_(report) {
-    // The studio is prepared once a process; a report wants to see what it costs.
-    EnvironmentSettings& environment = resolved_.environment;
-    if (environment.kind == EnvironmentSettings::Kind::Studio) {
-      environment.kind = EnvironmentSettings::Kind::Image;
-      environment.image = std::make_shared<const Image>(StudioPicture(kStudioWidth, kStudioHeight));
+    if (resolved_.environment.kind == EnvironmentSettings::Kind::Studio) {
+      studio_ = std::make_shared<const Image>(StudioPicture(kStudioWidth, kStudioHeight));
       largest_environment_ = kStudioMaxSize;
       resolved_.environment_size = std::min(resolved_.environment_size, kStudioMaxSize);
     }
@@ -126,7 +123,17 @@ class Sweep {
     for (const auto& [option, value] : changed) SetOption(request, option, option, value);
     int& size = request.settings.environment_size;
     size = std::min(size, largest_environment_);
+    if (studio_ != nullptr) PrepareStudioAnew(request.settings);
     return request.settings;
+  }
+
+  // The studio is prepared once a process, or already by the build; a report wants to see what it costs, where it does.
+  void PrepareStudioAnew(RenderSettings& settings) const {
+    const EnvironmentOptions options{settings.background == Background::Environment, settings.environment_size,
+                                     settings.environment_samples, settings.irradiance};
+    if (options == kStudioOptions) return;
+    settings.environment.kind = EnvironmentSettings::Kind::Image;
+    settings.environment.image = studio_;
   }
 
   // Every approximation; of the environment's sizes those that make a difference.
@@ -298,6 +305,7 @@ class Sweep {
   const Scene& scene_;
   const RenderRequest& request_;
   RenderSettings resolved_;
+  std::shared_ptr<const Image> studio_;  // where it is the light
   int largest_environment_ = std::numeric_limits<int>::max();  // texels that it is prepared with at most
   const ReportSettings& report_;
   const Clock clock_;

@@ -295,8 +295,16 @@ TEST(Studio, IsPositiveAndOfMeanOne) {
   EXPECT_EQ(StudioEnvironment().get(), StudioEnvironment().get());
   EXPECT_EQ(StudioEnvironment()->picture_data, nullptr);
   EXPECT_NE(StudioEnvironment({.keep_picture = true})->picture_data, nullptr);
-  // Light comes from above and from the camera's side.
+  // The build's table holds what preparing the picture gives, bit for bit.
   const auto map = StudioEnvironment();
+  const auto made = PrefilterEnvironment(StudioPicture(kStudioWidth, kStudioHeight), {.max_size = kStudioMaxSize});
+  ASSERT_EQ(map->texels.size(), made->texels.size());
+  for (std::size_t i = 0; i < made->texels.size(); ++i) {
+    if (i % 4 < 3) { ASSERT_EQ(map->texels[i], made->texels[i]) << i; }
+  }
+  for (int k = 0; k < EnvironmentMap::kLevels; ++k) EXPECT_EQ(map->levels[k].size, made->levels[k].size);
+  EXPECT_EQ(map->irradiance.offset, made->irradiance.offset);
+  // Light comes from above and from the camera's side.
   const double up = lanes::IrradianceOverPi(*map, Vec3<double>{0, 1, 0}).x;
   EXPECT_GT(up, 1.2 * lanes::IrradianceOverPi(*map, Vec3<double>{0, -1, 0}).x);
 }

@@ -1,0 +1,42 @@
+// The prepared studio. With the default settings it is read from a table that the build makes (write_studio_table.cc):
+// preparing it takes longer than all else that a small picture needs.
+#include <algorithm>
+#include <bit>
+#include <map>
+#include <mutex>
+#include <utility>
+
+#include "light/studio.h"
+#include "light/studio_table.h"
+
+namespace facet {
+namespace {
+
+std::shared_ptr<const EnvironmentMap> FromTable() {
+  auto map = std::make_shared<EnvironmentMap>();
+  LayOutLevels(kStudioMaxSize, *map);
+  for (std::size_t i = 0; i < map->texels.size(); ++i) {
+    if (i % 4 < 3) map->texels[i] = std::bit_cast<float>(kStudioTable[i / 4]);
+  }
+  return map;
+}
+
+}  // namespace
+
+std::shared_ptr<const EnvironmentMap> StudioEnvironment(EnvironmentOptions options) {
+  options.max_size = std::min(options.max_size, kStudioMaxSize);
+  static std::mutex mutex;
+  static std::map<EnvironmentOptions, std::shared_ptr<const EnvironmentMap>> prepared;
+  {
+    const std::lock_guard<std::mutex> lock(mutex);
+    if (const auto known = prepared.find(options); known != prepared.end()) return known->second;
+  }
+  // Outside of the lock, which must not be held while this thread helps with other tasks; whoever is second throws its
+  // own away.
+  auto map = options == kStudioOptions ? FromTable()
+                                       : PrefilterEnvironment(StudioPicture(kStudioWidth, kStudioHeight), options);
+  const std::lock_guard<std::mutex> lock(mutex);
+  return prepared.try_emplace(options, std::move(map)).first->second;
+}
+
+}  // namespace facet
