@@ -1,5 +1,6 @@
 #include "color/srgb.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -32,11 +33,13 @@ SrgbTables MakeTables() {
   tables.thresholds8[256] = std::numeric_limits<float>::infinity();
   std::size_t code = 0;
   std::size_t previous = 0;
-  for (std::size_t bucket = 0; bucket < tables.codes8.size(); ++bucket) {
+  for (std::size_t bucket = 0; bucket < tables.ramps8.size(); ++bucket) {
     const std::int32_t bits = SrgbTables::kFirstBits + (static_cast<std::int32_t>(bucket) << SrgbTables::kBucketShift);
     while (std::bit_cast<float>(bits) >= tables.thresholds8[code + 1]) ++code;
     FACET_CHECK_OP(code, <=, previous + 1);
-    tables.codes8[bucket] = static_cast<std::int32_t>(code);
+    const std::int32_t to_next = std::bit_cast<std::int32_t>(tables.thresholds8[code + 1]) - bits;
+    constexpr std::int32_t kSize = SrgbTables::kInBucket + 1;
+    tables.ramps8[bucket] = static_cast<std::int32_t>(code) * kSize + std::max(kSize - to_next, 0);
     previous = code;
   }
   return tables;
@@ -78,10 +81,10 @@ std::uint8_t LinearToSrgb8(float linear) {
   const SrgbTables& tables = GetSrgbTables();
   if (!(linear >= tables.thresholds8[1])) return 0;
   if (linear >= tables.thresholds8[255]) return 255;
-  const auto bucket = static_cast<std::size_t>((std::bit_cast<std::int32_t>(linear) - SrgbTables::kFirstBits) >>
-                                               SrgbTables::kBucketShift);
-  const auto code = static_cast<std::size_t>(tables.codes8[bucket]);
-  return static_cast<std::uint8_t>(code + (linear >= tables.thresholds8[code + 1] ? 1u : 0u));
+  const std::int32_t bits = std::bit_cast<std::int32_t>(linear);
+  const auto bucket = static_cast<std::size_t>((bits - SrgbTables::kFirstBits) >> SrgbTables::kBucketShift);
+  const std::int32_t place = bits & SrgbTables::kInBucket;
+  return static_cast<std::uint8_t>((tables.ramps8[bucket] + place) >> SrgbTables::kBucketShift);
 }
 
 std::uint16_t LinearToSrgb16(float linear) {

@@ -39,10 +39,13 @@ Srgb8 ToSrgb8(LinearRgb color);
 // thresholds[0] = 0, and one infinity follows the last.
 struct SrgbTables {
   static constexpr int kBucketShift = 16;                 // of a float's bits: 128 buckets an octave
+  static constexpr std::int32_t kInBucket = (1 << kBucketShift) - 1;  // the bits that tell a bucket's floats apart
   static constexpr std::int32_t kFirstBits = 0x39000000;  // 2^-13; all below has code 0
   static constexpr int kBucketCount = (0x3F800000 - kFirstBits) >> kBucketShift;
   std::array<float, 257> thresholds8;
-  std::array<std::int32_t, kBucketCount> codes8;  // the code at the start of each bucket; none holds two thresholds
+  // None holds two thresholds. The code at the start of the bucket times 2^16, plus as much as makes adding a float's
+  // place in the bucket carry into the code from the bucket's threshold on: (ramps8[bucket] + place) >> 16 is the code.
+  std::array<std::int32_t, kBucketCount> ramps8;
 };
 const SrgbTables& GetSrgbTables();
 // 65537 of them.

@@ -110,6 +110,7 @@ HWY_INLINE Vec3<T> NeutralCurve(Vec3<T> light) {
   c = {c.x - offset, c.y - offset, c.z - offset};
   const T peak = MaxComponent(c);
   const auto bright = peak >= start_compression;
+  if (!Any(bright)) return Clamp(c, T(0.0f), one);
   const T d = one - start_compression;
   const T new_peak = one - d * d / (peak + d - start_compression);
   const T safe_peak = Select(bright, peak, one);

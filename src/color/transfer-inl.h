@@ -32,10 +32,10 @@ HWY_INLINE T LinearToSrgb(T linear) {
 HWY_INLINE Int NearestSrgb8(Float linear, const SrgbTables& tables) {
   // What lies outside the buckets has the code of their ends.
   const Float bounded = Clamp(linear, FloatFromBits(Int(SrgbTables::kFirstBits)), Float(0x1.fffffep-1f));
-  const Int bucket = ShiftRightArithmetic<SrgbTables::kBucketShift>(BitsOf(bounded) - Int(SrgbTables::kFirstBits));
-  const Int code = Gather(tables.codes8.data(), bucket);
-  const Float next = Gather(tables.thresholds8.data(), code + Int(1));
-  return code + Select(bounded >= next, Int(1), Int(0));
+  constexpr int kShift = SrgbTables::kBucketShift;
+  const Int bits = BitsOf(bounded);
+  const Int ramp = Gather(tables.ramps8.data(), ShiftRightArithmetic<kShift>(bits - Int(SrgbTables::kFirstBits)));
+  return ShiftRightArithmetic<kShift>(ramp + (bits & Int(SrgbTables::kInBucket)));
 }
 
 // The nearest 16-bit code, exactly, given Srgb16Thresholds(). NaN gives 0.

@@ -41,8 +41,10 @@ HWY_INLINE Vec4<Float> ExposedLight(const DevelopTask& task, const float* pixels
   const Float alpha = Select(seen, Min(p.w, Float(1.0f)), zero);
   const Float divisor = Select(seen, p.w, Float(1.0f));
   const Float exposure(task.exposure);
-  const auto expose = [&](Float c) HWY_ATTR { return Select(seen, c / divisor * exposure, zero); };
-  return {expose(p.x), expose(p.y), expose(p.z), alpha};
+  Vec3<Float> straight = Xyz(p);
+  if (!All(divisor == Float(1.0f))) straight = straight / divisor;
+  const auto expose = [&](Float c) HWY_ATTR { return Select(seen, c * exposure, zero); };
+  return {expose(straight.x), expose(straight.y), expose(straight.z), alpha};
 }
 
 // Light that is seen in front of the background: an exact 1 behind an empty pixel stays an exact 1.

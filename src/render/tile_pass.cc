@@ -56,11 +56,12 @@ class TileWorker final : public RecordTable {
   TileWorker(const TilePassInput& input, const ShadingPositions& positions, const ViewDirections& directions)
       : in_(input), positions_(positions), directions_(directions), lighting_(input.lighting) {}
 
-  void Run(int index, Film& film, TileCounts& counts) {
+  // `t`: counted from the row of tiles that is the film's top.
+  void Run(std::size_t t, int first_row, Film& film, TileCounts& counts) {
     counts_ = &counts;
-    const int size = in_.grid.tile_size;
-    tile_.x0 = index % in_.grid.columns * size;
-    tile_.y0 = index / in_.grid.columns * size;
+    const int size = in_.grid.tile_size, film_y0 = static_cast<int>(t) / in_.grid.columns * size;
+    tile_.x0 = static_cast<int>(t) % in_.grid.columns * size;
+    tile_.y0 = first_row * size + film_y0;
     tile_.width = std::min(size, in_.grid.width - tile_.x0);
     tile_.height = std::min(size, in_.grid.height - tile_.y0);
     tile_.tile_size = size;
@@ -71,7 +72,6 @@ class TileWorker final : public RecordTable {
     blended_.list.Clear();
 
     const TileLists& lists = in_.geometry.lists;
-    const std::size_t t = std::size_t(index);
     const bool nothing = lists.opaque[t].empty() && lists.masked[t].empty() && lists.blended[t].empty();
     const bool background = in_.plan.environment_background;
     if (nothing) {
@@ -98,7 +98,7 @@ class TileWorker final : public RecordTable {
       const glm::vec4* row = pixels_.data() + std::size_t(y) * std::size_t(size);
       for (int x = 0; x < tile_.width; ++x) counts.covered += row[x].a > 0.0f;
       std::copy(row, row + tile_.width,
-                film.pixels.begin() + std::ptrdiff_t(tile_.y0 + y) * film.width + tile_.x0);
+                film.pixels.begin() + std::ptrdiff_t(film_y0 + y) * film.width + tile_.x0);
     }
   }
 
@@ -230,32 +230,41 @@ class TileWorker final : public RecordTable {
     for (auto* v : {&x_, &y_, &red_, &green_, &blue_, &alpha_}) v->resize(padded);
     const int tile_shift = std::countr_zero(static_cast<unsigned>(tile_.tile_size));
     const int anchor_x = tile_.x0 & ~(kAnchorSize - 1), anchor_y = tile_.y0 & ~(kAnchorSize - 1);
+    const int tile_x = tile_.x0 - anchor_x, tile_y = tile_.y0 - anchor_y;
     const FragmentList& list = fragments.list;
     std::int32_t last_number = kNoRecord, last_setup = 0;
     ++batch_number_;
     setup_count_ = 0;
+    const std::uint32_t* batch = batch_.data();
+    const std::int32_t* numbers = list.record.data();
+    std::int32_t* setup_of = setup_of_.data();
     constexpr std::size_t kAhead = 8;  // fragments
     const auto ahead = [&](std::size_t i, auto prefetch) {
       if (i >= n) return;
-      const std::int32_t number = list.record[batch_[i]];
-      if (number == list.record[batch_[i - 1]]) return;
+      const std::int32_t number = numbers[batch[i]];
+      if (number == numbers[batch[i - 1]]) return;
       const TriangleRecord& record = Record(number);
       prefetch(in_.geometry.drawables[record.drawable], record);
     };
-    for (std::size_t i = 0; i < padded; ++i) {
+    for (std::size_t i = 0; i < n; ++i) {
       ahead(i + 2 * kAhead, PrefetchIndices);
       ahead(i + kAhead, PrefetchVertices);
-      const std::size_t f = batch_[std::min(i, n - 1)];
-      if (list.record[f] != last_number) {
-        last_number = list.record[f];
-        last_setup = SetupFor(material, last_number, anchor_x, anchor_y);
+      const std::int32_t number = numbers[batch[i]];
+      if (number != last_number) {
+        last_number = number;
+        last_setup = SetupFor(material, number, anchor_x, anchor_y);
       }
-      setup_of_[i] = last_setup;
-      const int px = tile_.x0 - anchor_x + (list.pixel[f] & (tile_.tile_size - 1));
-      const int py = tile_.y0 - anchor_y + (list.pixel[f] >> tile_shift);
-      x_[i] = static_cast<float>(px) + positions_.X(list.samples[f]);
-      y_[i] = static_cast<float>(py) + positions_.Y(list.samples[f]);
+      setup_of[i] = last_setup;
     }
+    const std::uint16_t* pixels = list.pixel.data();
+    const std::uint8_t* samples = list.samples.data();
+    float *x = x_.data(), *y = y_.data();
+    for (std::size_t i = 0; i < n; ++i) {
+      const std::size_t f = batch[i];
+      x[i] = static_cast<float>(tile_x + (pixels[f] & (tile_.tile_size - 1))) + positions_.X(samples[f]);
+      y[i] = static_cast<float>(tile_y + (pixels[f] >> tile_shift)) + positions_.Y(samples[f]);
+    }
+    for (std::size_t i = n; i < padded; ++i) setup_of[i] = last_setup, x[i] = x[n - 1], y[i] = y[n - 1];
     ShadeTask task;
     task.setup = setup_of_.data();
     task.x = x_.data();
@@ -278,6 +287,12 @@ class TileWorker final : public RecordTable {
       in_.settings.shader->Shade(task);
     } else {
       ShadeMetallicRoughnessFragments(task);
+    }
+    if (n == list.Size()) {  // all, and in their order
+      fragments.alpha.swap(alpha_);
+      if (!alpha_only) fragments.red.swap(red_), fragments.green.swap(green_), fragments.blue.swap(blue_);
+      fragments.Resize();
+      return;
     }
     for (std::size_t i = 0; i < n; ++i) {
       const std::size_t f = batch_[i];
@@ -373,21 +388,22 @@ class WorkerPool {
 
 }  // namespace
 
-void RunTiles(const TilePassInput& input, Film& film, RenderStats& stats) {
+void RunTiles(const TilePassInput& input, int first_row, int end_row, Film& film, RenderStats& stats) {
   WorkerPool pool(input);
-  const std::size_t tile_count = std::size_t(input.grid.Count());
+  const int first_tile = first_row * input.grid.columns;
+  const std::size_t tile_count = std::size_t((end_row - first_row) * input.grid.columns);
   std::vector<TileCounts> counts(tile_count);
   std::atomic<std::size_t> done{0};
   double reported = 0.0;  // guarded by progress_mutex
   std::mutex progress_mutex;
   ParallelFor(tile_count, 1, [&](std::size_t begin, std::size_t end) {
     std::unique_ptr<TileWorker> worker = pool.Take();
-    for (std::size_t i = begin; i < end; ++i) worker->Run(static_cast<int>(i), film, counts[i]);
+    for (std::size_t i = begin; i < end; ++i) worker->Run(i, first_row, film, counts[i]);
     pool.Return(std::move(worker));
     const std::size_t now = done += end - begin;
     if (input.settings.progress && now % 16 == 0) {
       const std::unique_lock lock(progress_mutex, std::try_to_lock);
-      const double share = static_cast<double>(now) / static_cast<double>(tile_count);
+      const double share = (first_tile + static_cast<double>(now)) / input.grid.Count();
       if (lock.owns_lock() && share > reported) input.settings.progress(reported = share);
     }
   });
@@ -397,7 +413,7 @@ void RunTiles(const TilePassInput& input, Film& film, RenderStats& stats) {
     stats.covered_pixels += c.covered;
     stats.non_finite_fragments += c.non_finite;
   }
-  stats.tiles = tile_count;
+  stats.tiles += tile_count;
 }
 
 }  // namespace facet

@@ -1,15 +1,14 @@
 #include "render/view_directions.h"
 
-#include "frame/constants.h"
+#include "shade/shade_task.h"
 
 namespace facet {
 
 ViewDirections MakeViewDirections(const FrameView& view) {
   ViewDirections out;
-  const int padded_width = (view.width + kMaxTileSize - 1) / kMaxTileSize * kMaxTileSize;
   for (int c = 0; c < 3; ++c) {
     const glm::dvec3& axis = view.camera_from_world[c];  // world axis c in camera space
-    out.column[c].resize(std::size_t(padded_width));
+    out.column[c].resize(std::size_t(view.width) + kTaskPadding);
     out.row[c].resize(std::size_t(view.height));
     for (int x = 0; x < view.width && view.perspective; ++x) {
       out.column[c][std::size_t(x)] = axis.x * ((x + 0.5 - view.width * 0.5) / view.screen_x.x);

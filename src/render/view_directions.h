@@ -8,7 +8,7 @@
 namespace facet {
 
 // DirectionThrough(view, x + 0.5, y + 0.5), to the bit, is (column[.][x] + row[.][y]) + whole. Columns are followed by
-// zeros up to a multiple of 64.
+// kTaskPadding zeros.
 struct ViewDirections {
   std::vector<double> column[3], row[3];
   double whole[3] = {};

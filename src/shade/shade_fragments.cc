@@ -1,5 +1,8 @@
 #include "shade/shade_fragments.h"
 
+#include <algorithm>
+#include <iterator>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "shade/shade_fragments.cc"
 #include "hwy/foreach_target.h"
@@ -23,33 +26,38 @@ void AlphaKernel(const ShadeTask& task) {
 
 void BackgroundKernel(const BackgroundTask& task) {
   const LightingView<Float> lighting(*task.lighting);
-  constexpr int kPixels = 16;  // at a time, whatever the lanes
-  alignas(64) float direction[3][kPixels] = {}, color[3][kPixels];
-  for (int x = 0; x < task.width; x += kPixels) {
-    const int count = task.width - x < kPixels ? task.width - x : kPixels;
-    bool any = false;
-    for (int i = 0; i < count; ++i) any |= task.pixels[4 * (x + i) + 3] < 1.0f;
-    if (!any) continue;
+  const Float one(1.0f), zero(0.0f);
+  const hn::ScalableTag<double> doubles;
+  const hn::Rebind<float, decltype(doubles)> floats;
+  const std::size_t width = std::size_t(task.width), lanes = LaneCount();
+  for (std::size_t x = 0; x < width; x += lanes) {
+    const std::size_t count = std::min(lanes, width - x);
+    float whole[4 * kMaxLanes];
+    float* pixels = task.pixels + 4 * x;
+    if (count < lanes) {
+      std::fill(std::begin(whole), std::end(whole), 1.0f);
+      std::copy_n(pixels, 4 * count, whole);
+      pixels = whole;
+    }
+    Float r, g, b, a;
+    hn::LoadInterleaved4(FloatTag(), pixels, r.raw, g.raw, b.raw, a.raw);
+    const Float share = one - a;
+    const Mask behind = share > zero;
+    if (!Any(behind)) continue;
+    alignas(64) float direction[3][kMaxLanes];
     for (int c = 0; c < 3; ++c) {
-      for (int i = 0; i < count; ++i) {
-        direction[c][i] = static_cast<float>((task.column[c][x + i] + task.row[c]) + task.whole[c]);
+      const auto row = hn::Set(doubles, task.row[c]), all = hn::Set(doubles, task.whole[c]);
+      for (std::size_t i = 0; i < lanes; i += hn::Lanes(doubles)) {
+        const auto through = hn::Add(hn::Add(hn::LoadU(doubles, task.column[c] + x + i), row), all);
+        hn::StoreU(hn::DemoteTo(floats, through), floats, direction[c] + i);
       }
     }
-    for (int i = 0; i < count; i += static_cast<int>(LaneCount())) {
-      const Vec3<Float> to_pixel{LoadFloat(direction[0] + i), LoadFloat(direction[1] + i), LoadFloat(direction[2] + i)};
-      const Vec3<Float> seen =
-          lighting.Background(NormalizeOr(to_pixel, Vec3<Float>{Float(0.0f), Float(0.0f), Float(-1.0f)}));
-      Store(seen.x, color[0] + i);
-      Store(seen.y, color[1] + i);
-      Store(seen.z, color[2] + i);
-    }
-    for (int i = 0; i < count; ++i) {
-      float* pixel = task.pixels + 4 * (x + i);
-      const float share = 1.0f - pixel[3];
-      if (!(share > 0.0f)) continue;
-      for (int c = 0; c < 3; ++c) pixel[c] += color[c][i] * share;
-      pixel[3] += share;
-    }
+    const Vec3<Float> to_pixel{LoadFloat(direction[0]), LoadFloat(direction[1]), LoadFloat(direction[2])};
+    const Vec3<Float> seen = lighting.Background(NormalizeOr(to_pixel, Vec3<Float>{zero, zero, Float(-1.0f)}));
+    const auto under = [&](Float light, Float back) HWY_ATTR { return Select(behind, light + back * share, light); };
+    hn::StoreInterleaved4(under(r, seen.x).raw, under(g, seen.y).raw, under(b, seen.z).raw, under(a, one).raw,
+                          FloatTag(), pixels);
+    if (count < lanes) std::copy_n(whole, 4 * count, task.pixels + 4 * x);
   }
 }
 

@@ -12,7 +12,7 @@ void ShadeMetallicRoughnessFragments(const ShadeTask& task);
 void ShadeAlpha(const ShadeTask& task);
 
 // The environment behind a row of pixels: laid under those whose coverage is below 1. The direction from the eye
-// through pixel x (world axes, any length) is column[.][x] + row + whole.
+// through pixel x (world axes, any length) is column[.][x] + row + whole; columns can be read kTaskPadding further.
 struct BackgroundTask {
   const double* column[3] = {};
   double row[3] = {}, whole[3] = {};

@@ -6,6 +6,7 @@
 
 #include "render/frame_view.h"
 #include "scene/camera.h"
+#include "shade/shade_task.h"
 
 namespace facet {
 namespace {
@@ -26,7 +27,7 @@ TEST(ViewDirections, AreThoseThroughEachPixelToTheBit) {
         }
       }
     }
-    for (const auto& column : d.column) EXPECT_EQ(column.size() % 64, 0u);
+    for (const auto& column : d.column) EXPECT_EQ(column.size(), std::size_t(view.width) + kTaskPadding);
   }
 }
 
