@@ -123,6 +123,9 @@ struct RenderSettings {
   IrradianceMethod irradiance = IrradianceMethod::Convolution;
   TangentSource tangents = TangentSource::File;
   int tile_size = 32;      // 8, 16, 32 or 64: never changes the picture
+  // Bytes that film, geometry, textures and environment may take together; 0: no limit. What is known to need more is
+  // refused before it is allocated. The rest (lists, what is being decoded) is not counted.
+  std::uint64_t memory_limit = 0;
   int scene = -1;          // -1: the default one
   int animation = -1;      // -1: rest pose
   double time = 0.0;       // seconds
@@ -184,6 +187,15 @@ struct RenderStats {
 // InvalidInput for scenes that break their rules, OutOfMemory.
 Film Render(const Scene& scene, const RenderSettings& settings, RenderStats* stats = nullptr);
 
+// Takes some rows of a picture, `first_row` being their first's number in it. They are gone when it returns.
+using BandReceiver = std::function<void(const Film& band, int first_row)>;
+
+// Render() without the whole film in memory: `receive` is called for bands that together, from top to bottom, are its
+// film, bit for bit. A band has the settings' width and at most `max_rows` rows, rounded down to whole tiles, but one
+// row of tiles at least. Throws what Render() and `receive` throw.
+void RenderBands(const Scene& scene, const RenderSettings& settings, int max_rows, const BandReceiver& receive,
+                 RenderStats* stats = nullptr);
+
 // Renders one scene again and again: what a frame shares with the one before (its pose, textures, environment and
 // memory) is kept. Every frame is the one that Render() makes. The scene must outlive the renderer, and must not
 // change.
@@ -198,7 +210,13 @@ class Renderer {
   // Replaces `film`, using its memory. Throws what Render() does; the film is lost then. Not from two threads at once.
   void Render(const RenderSettings& settings, Film& film, RenderStats* stats = nullptr);
 
+  // As RenderBands().
+  void RenderBands(const RenderSettings& settings, int max_rows, const BandReceiver& receive,
+                   RenderStats* stats = nullptr);
+
  private:
+  void Draw(const RenderSettings& settings, int max_rows, Film& film, const BandReceiver& receive, RenderStats* stats);
+
   class Frames;
   std::unique_ptr<Frames> frames_;
 };

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <numbers>
 
+#include "base/bytes_text.h"
 #include "base/printable.h"
 #include "cli/info_summary.h"
 
@@ -39,8 +40,7 @@ std::string Plural(std::uint64_t count, const char* one) {
 
 std::string Bytes(std::size_t bytes) {
   if (bytes < 1024) return Plural(bytes, "byte");
-  const double kibibytes = static_cast<double>(bytes) / 1024.0;
-  return kibibytes < 1024.0 ? Format("%.1f KiB", kibibytes) : Format("%.1f MiB", kibibytes / 1024.0);
+  return BytesText(static_cast<double>(bytes));
 }
 
 std::string Join(const std::vector<std::string>& parts, const char* separator = ", ") {

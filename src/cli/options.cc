@@ -84,6 +84,12 @@ void AddRequest(CLI::App& app, RenderRequest& request, LoadOptions& load) {
       });
 }
 
+void AddMemoryLimit(CLI::App& app, RenderSettings& settings) {
+  Add(app, "Quality and speed", "--memory-limit", "SIZE",
+      "Refuse what is known to need more, such as 512MiB\nor 2GiB; never changes the picture [none]",
+      [&](const std::string& text) { settings.memory_limit = ParseBytes("--memory-limit", text); });
+}
+
 void AddBound(CLI::App& app, RenderOptions& options) {
   const std::string group = "Chosen by error or time";
   Add(app, group, "--max-error", "X", "Take the fastest approximations whose relative\nerror is at most X, 1e-6 to 10",
@@ -152,6 +158,7 @@ CLI::App& AddRender(CLI::App& program, RenderOptions& options) {
       [&](const std::string& text) { options.output = text; })
       ->required();
   AddRequest(app, options.request, options.load);
+  AddMemoryLimit(app, options.request.settings);
   AddBound(app, options);
   AddMessages(app, options);
   page.End("Messages");

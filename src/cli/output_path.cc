@@ -47,6 +47,12 @@ const OutputFormat& FormatOf(const std::filesystem::path& path) {
               Printable(path.string()), "use one of " + list);
 }
 
+bool IsPlainFile(const std::filesystem::path& path) {
+  std::error_code ignored;
+  const std::filesystem::file_status status = std::filesystem::status(path, ignored);
+  return std::filesystem::is_regular_file(status) || !std::filesystem::exists(status);
+}
+
 void CheckWritable(const std::filesystem::path& path) {
   const std::string name = Printable(path.string());
   std::error_code ignored;

@@ -1,7 +1,10 @@
 #include "cli/render_command.h"
 
+#include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <cstdio>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -15,7 +18,10 @@
 #include "cli/stats_output.h"
 #include "facet/error.h"
 #include "facet/version.h"
+#include "film/hash_film.h"
 #include "image/codec.h"
+#include "image/hash_image.h"
+#include "render/memory_budget.h"
 #include "report/provenance.h"
 
 namespace facet::cli {
@@ -80,17 +86,130 @@ void PrintStats(const RenderOptions& options, const CommandStats& stats) {
   }
 }
 
-Film RenderWithProgress(const Scene& scene, const RenderOptions& options, RenderSettings settings, RenderStats& stats) {
+// Calls render(settings), which reports progress while it draws.
+template <class Draw>
+void DrawWithProgress(const RenderOptions& options, RenderSettings settings, const Draw& draw) {
   const Progress::Style style = Progress::StyleFor(options.quiet, options.progress ? &*options.progress : nullptr);
   Progress progress(style);
   if (style != Progress::Style::None) {
     settings.progress = [&progress](double share) { progress.Update(share); };
   }
-  return Render(scene, settings, &stats);
+  draw(settings);
 }
+
+// How many rows a band of the picture has; 0: it is drawn whole. A PNG whose film is large is drawn, developed and
+// written band by band, so that the memory it takes does not grow with it.
+int BandRows(const RenderOptions& options) {
+  constexpr std::uint64_t kLargestWhole = std::uint64_t{256} << 20, kBand = std::uint64_t{64} << 20;  // bytes of film
+  const RenderSettings& settings = options.request.settings;
+  const std::uint64_t limit = settings.memory_limit > 0 ? settings.memory_limit : UINT64_MAX;
+  const std::uint64_t row_bytes = std::uint64_t(settings.width) * sizeof(glm::vec4);
+  const bool large = row_bytes * std::uint64_t(settings.height) > std::min(kLargestWhole, limit / 4);
+  const bool streamed = FormatOf(options.output).extension == ".png" && IsPlainFile(options.output);
+  return large && streamed ? static_cast<int>(std::max<std::uint64_t>(std::min(kBand, limit / 8) / row_bytes, 1)) : 0;
+}
+
+// What it takes to write a picture that is drawn whole; RenderSettings::memory_limit is about drawing it.
+void CheckMemory(const RenderRequest& request) {
+  const RenderSettings& settings = request.settings;
+  const std::uint64_t pixels = std::uint64_t(settings.width) * std::uint64_t(settings.height);
+  const std::string size = std::to_string(settings.width) + " x " + std::to_string(settings.height) + " pixels";
+  const std::string remedy = "make the picture smaller, or write it as .png, which is done piece by piece";
+  MemoryBudget budget(settings.memory_limit);
+  budget.Add(pixels * sizeof(glm::vec4), "a film of " + size, remedy);
+  budget.Add(2 * pixels * 4 * SizeOf(request.type), "its developed pixels and the encoder's copy", remedy);
+}
+
+// Loads, draws, develops and writes.
+class Drawing {
+ public:
+  Drawing(const RenderOptions& options, CommandStats& stats)
+      : options_(options), request_(options.request), stats_(stats) {}
+
+  void InBands(int rows) {
+    Load();
+    WriteFileWhole(options_.output, [&](const std::filesystem::path& temporary) {
+      const int width = settings_.width, height = settings_.height;
+      Provenance provenance = Origin();
+      Sha256 film_hash = BeginFilmHash(width, height), pixel_hash;
+      std::optional<PngStream> png;
+      const auto add = [&](const Film& band, int first_row) {
+        Stopwatch stage;
+        const Image image = Develop(band, request_.display, request_.type);
+        stats_.develop_seconds += stage.Lap();
+        if (first_row == 0) {
+          const Image form{width, height, image.channels, image.type, image.encoding, {}};
+          png.emplace(temporary, options_.output.string(), form, ToPngText(provenance));
+          pixel_hash = BeginImageHash(form);
+        }
+        png->Add(image, [&] {
+          film_hash.Add(std::as_bytes(std::span(band.pixels)));
+          pixel_hash.Add(std::span(image.bytes));
+        });
+        stats_.write_seconds += stage.Lap();
+      };
+      DrawWithProgress(options_, settings_, [&](const RenderSettings& settings) {
+        RenderBands(loaded_.scene, settings, rows, add, &stats_.render);
+      });
+      provenance.film = film_hash.Finish();
+      provenance.pixels = pixel_hash.Finish();
+      png->Finish(ToPngText(provenance));
+    });
+    stats_.render_seconds = stage_.Lap() - stats_.develop_seconds - stats_.write_seconds;
+    PrintWarnings(stats_.render.warnings, options_.quiet);
+  }
+
+  void Whole() {
+    Load();
+    Film film;
+    DrawWithProgress(options_, settings_,
+                     [&](const RenderSettings& settings) { film = Render(loaded_.scene, settings, &stats_.render); });
+    settings_ = {}, loaded_ = {};  // the scene's memory is given back before the picture is encoded
+    stats_.render_seconds = stage_.Lap();
+    PrintWarnings(stats_.render.warnings, options_.quiet);
+
+    const Image image = Develop(film, request_.display, request_.type);
+    stats_.develop_seconds = stage_.Lap();
+    WriteImageWithText(options_.output, image, [&] {
+      Provenance provenance = Origin();
+      provenance.film = HashFilm(film);
+      provenance.pixels = HashImage(image);
+      return ToPngText(provenance);
+    });
+    stats_.write_seconds = stage_.Lap();
+  }
+
+ private:
+  void Load() {
+    loaded_ = LoadGltf(options_.input, options_.load);
+    stats_.load_seconds = stage_.Lap();
+    stats_.input_bytes = loaded_.report.file_bytes;
+    PrintWarnings(loaded_.report.warnings, options_.quiet);
+    settings_ = ResolveRequest(request_, loaded_.scene);
+    stats_.environment_seconds = stage_.Lap();
+  }
+
+  // What the picture says of itself, less its digests.
+  Provenance Origin() const {
+    Provenance provenance;
+    provenance.version = Version();
+    provenance.scene = options_.input.filename().string();
+    provenance.settings = SpelledOut(request_);
+    return provenance;
+  }
+
+  const RenderOptions& options_;
+  const RenderRequest& request_;
+  CommandStats& stats_;
+  Stopwatch stage_;
+  LoadedScene loaded_;
+  RenderSettings settings_;
+};
 
 void RenderToFile(RenderOptions& options) {
   Reconcile(options);
+  const int band_rows = BandRows(options);
+  if (band_rows == 0) CheckMemory(options.request);
   if (options.bound.max_relative_rmse || options.bound.max_seconds) {
     const Choice choice = ChooseApproximations(options);
     if (!choice.kept) {
@@ -102,40 +221,18 @@ void RenderToFile(RenderOptions& options) {
     throw Error(ErrorCode::InvalidUsage, "there is no bound to choose by", options.report ? "--report" : "--budget",
                 "add --max-error or --max-time");
   }
-  Stopwatch total, stage;
-  const RenderRequest& request = options.request;
+  if (const std::uint64_t limit = options.request.settings.memory_limit; limit > 0) {
+    options.load.max_geometry_bytes = std::min<std::uint64_t>(options.load.max_geometry_bytes, limit);
+  }
+  Stopwatch total;
   CommandStats stats;
   stats.input = options.input.string();
   stats.output = options.output.string();
-  stats.width = request.settings.width;
-  stats.height = request.settings.height;
-  stats.samples = request.settings.samples;
-
-  Film film;
-  {  // the scene's memory is given back before the picture is encoded
-    const LoadedScene loaded = LoadGltf(options.input, options.load);
-    stats.load_seconds = stage.Lap();
-    stats.input_bytes = loaded.report.file_bytes;
-    PrintWarnings(loaded.report.warnings, options.quiet);
-    const RenderSettings settings = ResolveRequest(request, loaded.scene);
-    stats.environment_seconds = stage.Lap();
-    film = RenderWithProgress(loaded.scene, options, settings, stats.render);
-  }
-  stats.render_seconds = stage.Lap();
-  PrintWarnings(stats.render.warnings, options.quiet);
-
-  const Image image = Develop(film, request.display, request.type);
-  stats.develop_seconds = stage.Lap();
-  WriteImageWithText(options.output, image, [&] {
-    Provenance provenance;
-    provenance.version = Version();
-    provenance.scene = options.input.filename().string();
-    provenance.settings = SpelledOut(request);
-    provenance.film = HashFilm(film);
-    provenance.pixels = HashImage(image);
-    return ToPngText(provenance);
-  });
-  stats.write_seconds = stage.Lap();
+  stats.width = options.request.settings.width;
+  stats.height = options.request.settings.height;
+  stats.samples = options.request.settings.samples;
+  Drawing drawing(options, stats);
+  band_rows > 0 ? drawing.InBands(band_rows) : drawing.Whole();
   stats.total_seconds = total.Lap();
   PrintStats(options, stats);
 }

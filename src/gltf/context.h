@@ -36,7 +36,7 @@ struct Context {
     const std::size_t bound = unfolded < options.max_geometry_bytes ? unfolded : options.max_geometry_bytes;
     if (geometry_bytes > bound || (size_each != 0 && count > (bound - geometry_bytes) / size_each)) {
       Fail(where, "the geometry needs more memory than the bound of " + std::to_string(bound) + " bytes",
-           bound == unfolded ? "so small a file should not unfold so far" : "raise LoadOptions::max_geometry_bytes",
+           bound == unfolded ? "so small a file should not unfold so far" : "raise the limit (LoadOptions::max_geometry_bytes)",
            ErrorCode::OutOfMemory);
     }
     geometry_bytes += count * size_each;

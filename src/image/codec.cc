@@ -9,6 +9,7 @@
 #include <cstring>
 #include <new>
 
+#include "base/bytes_text.h"
 #include "base/float_environment.h"
 #include "base/pages.h"
 #include "facet/error.h"
@@ -63,7 +64,8 @@ void CheckImageSize(std::uint64_t width, std::uint64_t height, const std::string
   const auto side = static_cast<std::uint64_t>(kMaxImageSide);
   if (width <= side && height <= side && width * height <= kMaxImagePixels) return;
   throw Error(ErrorCode::OutOfMemory,
-              std::to_string(width) + " x " + std::to_string(height) + " pixels are more than the limit of " +
+              std::to_string(width) + " x " + std::to_string(height) + " pixels, " +
+                  BytesText(4.0 * double(width) * double(height)) + " at 4 bytes each, are more than the limit of " +
                   std::to_string(kMaxImageSide) + " a side and " + std::to_string(kMaxImagePixels) + " in all",
               name, "scale the picture down");
 }

@@ -4,9 +4,12 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <cstdio>
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -39,6 +42,34 @@ std::vector<std::byte> EncodePng(const Image& image, const PngText& text = {});
 
 // The same with a text that takes time to make: it is made while another thread compresses the pixels.
 std::vector<std::byte> EncodePng(const Image& image, const std::function<PngText()>& make_text);
+
+// A PNG file whose rows come a band after the other and are not kept; compressed by zlib, on all threads.
+class PngStream {
+ public:
+  // `form`: the whole picture's size and kind, as EncodePng takes them; its bytes are not looked at. `name`: what
+  // messages call the file. Throws Error: InvalidUsage as EncodePng, OutputFailed.
+  PngStream(const std::filesystem::path& path, const std::string& name, const Image& form, const PngText& text);
+
+  // The next rows, while another thread does what `meanwhile` says. Throws Error: OutputFailed; InvalidUsage for rows
+  // of another form, or too many.
+  void Add(const Image& rows, const std::function<void()>& meanwhile);
+
+  // Ends the file when all rows are there; `text`, as long as the first one in each part, takes its place.
+  // Throws Error: OutputFailed; InvalidUsage where rows are missing or the text is longer or shorter.
+  void Finish(const PngText& text);
+
+ private:
+  void Write(std::span<const std::byte> bytes);
+  [[noreturn]] void Fail() const;
+
+  std::string name_;
+  std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
+  Image form_;
+  std::vector<unsigned char> above_;  // the last row
+  int next_row_ = 0;
+  std::size_t head_size_ = 0;   // bytes before the pixels
+  std::uint32_t checksum_ = 1;  // Adler-32 of the rows so far
+};
 
 // WriteImage of facet/film.h with such a text. Formats other than PNG have no use for it and do not make it.
 void WriteImageWithText(const std::filesystem::path& path, const Image& image,

@@ -1,10 +1,11 @@
 #include "facet/image.h"
 
 #include <span>
+#include <string>
 #include <utility>
 
-#include "base/sha256.h"
 #include "facet/digest.h"
+#include "image/hash_image.h"
 
 namespace facet {
 namespace {
@@ -36,11 +37,16 @@ std::shared_ptr<const ImageSource> MakeImageSource(Image image, std::string name
   return std::make_shared<MemoryImage>(std::move(image), std::move(name));
 }
 
-Digest HashImage(const Image& image) {
+Sha256 BeginImageHash(const Image& form) {
   Sha256 hash;
-  hash.Add("facet image " + std::to_string(image.width) + " " + std::to_string(image.height) + " " +
-           std::to_string(image.channels) + " " + std::to_string(8 * SizeOf(image.type)) +
-           (image.encoding == Encoding::Srgb ? " srgb\n" : " linear\n"));
+  hash.Add("facet image " + std::to_string(form.width) + " " + std::to_string(form.height) + " " +
+           std::to_string(form.channels) + " " + std::to_string(8 * SizeOf(form.type)) +
+           (form.encoding == Encoding::Srgb ? " srgb\n" : " linear\n"));
+  return hash;
+}
+
+Digest HashImage(const Image& image) {
+  Sha256 hash = BeginImageHash(image);
   hash.Add(std::span(image.bytes));
   return hash.Finish();
 }

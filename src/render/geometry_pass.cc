@@ -78,29 +78,38 @@ void RunGeometry(const FrameView& view, const PosedScene& posed, const FramePlan
   });
 
   frame.material_visible.assign(plan.materials.size(), false);
-  for (auto* lists : {&frame.lists.opaque, &frame.lists.masked, &frame.lists.blended}) {
-    for (std::vector<TileRun>& list : *lists) list.clear();
-    lists->resize(std::size_t(grid.Count()));
-  }
   std::uint64_t record_count = 0;
-  for (std::size_t i = 0; i < frame.chunks.size(); ++i) {
-    TriangleChunk& chunk = frame.chunks[i];
+  for (const TriangleChunk& chunk : frame.chunks) {
     record_count += chunk.records.size();
     stats.triangles_culled += chunk.culled;
     stats.triangles_clipped += chunk.clipped;
-    const std::size_t material = std::size_t(frame.drawables[chunk.drawable].material);
-    const AlphaMode mode = plan.materials[material].frame.alpha_mode;
-    auto& lists = mode == AlphaMode::Opaque ? frame.lists.opaque
-                  : mode == AlphaMode::Mask ? frame.lists.masked
-                                            : frame.lists.blended;
-    for (std::size_t t = 0; t < chunk.tiles.size(); ++t) {
-      lists[chunk.tiles[t]].push_back({static_cast<std::uint32_t>(i), chunk.begin[t], chunk.begin[t + 1]});
-    }
-    if (!chunk.tiles.empty()) frame.material_visible[material] = true;
+    if (!chunk.tiles.empty()) frame.material_visible[std::size_t(frame.drawables[chunk.drawable].material)] = true;
   }
   stats.triangles_binned = record_count;
   if (record_count > INT32_MAX) {
     throw Error(ErrorCode::OutOfMemory, "the scene has more than 2^31 triangles on the screen", {}, "render it in parts");
+  }
+}
+
+void ListTiles(const FramePlan& plan, int first, int end, FrameGeometry& frame) {
+  for (auto* lists : {&frame.lists.opaque, &frame.lists.masked, &frame.lists.blended}) {
+    for (std::vector<TileRun>& list : *lists) list.clear();
+    lists->resize(std::size_t(end - first));
+  }
+  for (std::size_t i = 0; i < frame.chunks.size(); ++i) {
+    const TriangleChunk& chunk = frame.chunks[i];
+    const AlphaMode mode = plan.materials[std::size_t(frame.drawables[chunk.drawable].material)].frame.alpha_mode;
+    auto& lists = mode == AlphaMode::Opaque ? frame.lists.opaque
+                  : mode == AlphaMode::Mask ? frame.lists.masked
+                                            : frame.lists.blended;
+    const auto at = [&](int tile) {
+      return std::lower_bound(chunk.tiles.begin(), chunk.tiles.end(), std::uint32_t(tile)) - chunk.tiles.begin();
+    };
+    const auto stop = std::size_t(at(end));
+    for (auto t = std::size_t(at(first)); t < stop; ++t) {
+      lists[chunk.tiles[t] - std::uint32_t(first)].push_back(
+          {static_cast<std::uint32_t>(i), chunk.begin[t], chunk.begin[t + 1]});
+    }
   }
 }
 

@@ -20,9 +20,13 @@ struct FrameGeometry {
   VertexBuffer vertices;
 };
 
-// Fills `frame`; whatever it held is lost. `posed` must outlive it.
+// Fills `frame` but for its lists; whatever it held is lost. `posed` must outlive it.
 void RunGeometry(const FrameView& view, const PosedScene& posed, const FramePlan& plan, const TileGrid& grid,
                  int samples, FrameGeometry& frame, RenderStats& stats);
+
+// Fills the lists for tiles [first, end) of the grid: those of tile `first` are the first. There are no more lists than
+// that, so that a band of a large picture needs few.
+void ListTiles(const FramePlan& plan, int first, int end, FrameGeometry& frame);
 
 FrameGeometry RunGeometry(const FrameView& view, const PosedScene& posed, const FramePlan& plan, const TileGrid& grid,
                           int samples, RenderStats& stats);

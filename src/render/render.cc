@@ -1,10 +1,12 @@
 #include "facet/render.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <new>
 #include <optional>
 
+#include "base/bytes_text.h"
 #include "base/pages.h"
 #include "base/parallel.h"
 #include "facet/error.h"
@@ -15,6 +17,7 @@
 #include "plan/frame_plan.h"
 #include "render/frame_view.h"
 #include "render/geometry_pass.h"
+#include "render/memory_budget.h"
 #include "render/texture_pass.h"
 #include "render/tile_pass.h"
 #include "scene/camera.h"
@@ -45,8 +48,11 @@ void Refuse(const std::string& what, const std::string& accepted) {
 void CheckSettings(const RenderSettings& s) {
   const auto size_ok = [](int n) { return n >= 1 && n <= kMaxPictureSize; };
   if (!size_ok(s.width) || !size_ok(s.height)) {
-    Refuse("a picture of " + std::to_string(s.width) + " x " + std::to_string(s.height) + " pixels",
-           "each side is 1 to " + std::to_string(kMaxPictureSize));
+    const double bytes = double(s.width) * s.height * sizeof(glm::vec4);
+    const double most = double(kMaxPictureSize) * kMaxPictureSize * sizeof(glm::vec4);
+    Refuse("a picture of " + std::to_string(s.width) + " x " + std::to_string(s.height) + " pixels" +
+               (bytes > most ? " needs " + BytesText(bytes) : ""),
+           "each side is 1 to " + std::to_string(kMaxPictureSize) + ", " + BytesText(most) + " in all");
   }
   if (s.samples != 1 && s.samples != 2 && s.samples != 4 && s.samples != 8) {
     Refuse(std::to_string(s.samples) + " samples per pixel", "1, 2, 4 or 8 are accepted");
@@ -75,7 +81,8 @@ void CheckSettings(const RenderSettings& s) {
   }
 }
 
-std::size_t BytesOf(const std::deque<Primitive>& primitives) {
+template <class Primitives>
+std::size_t BytesOf(const Primitives& primitives) {
   std::size_t bytes = 0;
   const auto add = [&bytes](const auto& values) { bytes += values.size() * sizeof(values[0]); };
   for (const Primitive& p : primitives) {
@@ -85,6 +92,13 @@ std::size_t BytesOf(const std::deque<Primitive>& primitives) {
   return bytes;
 }
 
+// Of the environment's picture, its copies in linear light, and its maps.
+std::size_t ExpectedBytes(const Image& picture, const EnvironmentOptions& options) {
+  const auto size = std::size_t(options.max_size);
+  const std::size_t floats = picture.PixelCount() * (options.keep_picture ? 2 : 1) + 3 * size * size;
+  return picture.bytes.size() + floats * 4 * sizeof(float);
+}
+
 }  // namespace
 
 // What frames share. Each part is made anew when the settings that it was made for are others.
@@ -92,8 +106,20 @@ class Renderer::Frames {
  public:
   explicit Frames(const Scene& scene) : scene_(scene) {}
 
-  void Render(const RenderSettings& settings, Film& film, RenderStats& stats) {
+  // A band of rows after the other in `film`; `receive`, which may be empty, is called for each.
+  void Render(const RenderSettings& settings, int max_rows, Film& film, const BandReceiver& receive,
+              RenderStats& stats) {
     Stopwatch total, stage;
+    const TileGrid grid = MakeTileGrid(settings.width, settings.height, settings.tile_size);
+    const int band_tiles = max_rows >= settings.height ? grid.rows : std::max(max_rows / grid.tile_size, 1);
+    const int band_rows = std::min(band_tiles * grid.tile_size, settings.height);
+    MemoryBudget budget(settings.memory_limit);
+    budget.Add(std::uint64_t(settings.width) * std::uint64_t(band_rows) * sizeof(glm::vec4),
+               "a film of " + std::to_string(settings.width) + " x " + std::to_string(band_rows) + " pixels",
+               "make the picture smaller");
+    std::size_t geometry_bytes = 0;
+    for (const Mesh& mesh : scene_.meshes) geometry_bytes += BytesOf(mesh.primitives);
+    budget.Add(geometry_bytes, "geometry", "leave some out");
     const PosedScene& posed = Posed(PoseOf(settings));
     FramePlan plan = MakeFramePlan(scene_, posed, settings);
     stats.left_out = plan.left_out;
@@ -102,14 +128,13 @@ class Renderer::Frames {
                                          settings.width, settings.height);
     stats.pose_seconds = stage.Lap();
 
-    const TileGrid grid = MakeTileGrid(settings.width, settings.height, settings.tile_size);
     RunGeometry(view, posed, plan, grid, settings.samples, geometry_, stats);
     stats.geometry_seconds = stage.Lap();
 
-    DecodeTextures(scene_, geometry_.material_visible, settings.texels, plan, textures_, stats);
+    DecodeTextures(scene_, geometry_.material_visible, settings.texels, plan, textures_, budget, stats);
     stats.texture_seconds = stage.Lap();
 
-    const EnvironmentMap* environment = Environment(plan, settings, stats);
+    const EnvironmentMap* environment = Environment(plan, settings, budget, stats);
     std::vector<PunctualLight> lights;
     if (plan.punctual_lights) lights = MakePunctualLights(posed.lights, view.eye_world);
     if (plan.dark_light) lights.emplace_back().type = LightType::Directional;
@@ -118,15 +143,21 @@ class Renderer::Frames {
     stats.environment_seconds = stage.Lap();
 
     film.width = settings.width;
-    film.height = settings.height;
-    const std::size_t pixel_count = std::size_t(film.width) * std::size_t(film.height);
-    film.pixels.reserve(pixel_count);
-    PreferHugePages(film.pixels.data(), pixel_count * sizeof(glm::vec4));
-    film.pixels.resize(pixel_count);
+    film.pixels.reserve(std::size_t(settings.width) * std::size_t(band_rows));
+    PreferHugePages(film.pixels.data(), film.pixels.capacity() * sizeof(glm::vec4));
     LightingData lit = lighting;
     if (!plan.environment_light) lit.environment = nullptr;  // seen behind the scene at most
-    RunTiles({view, plan, geometry_, grid, lit, lighting, settings}, film, stats);
-    stats.raster_seconds = stage.Lap();
+    const TilePassInput input{view, plan, geometry_, grid, lit, lighting, settings};
+    for (int row = 0; row < grid.rows; row += band_tiles) {
+      const int end = std::min(row + band_tiles, grid.rows), first = row * grid.tile_size;
+      film.height = std::min(end * grid.tile_size, settings.height) - first;
+      film.pixels.resize(std::size_t(film.width) * std::size_t(film.height));
+      ListTiles(plan, row * grid.columns, end * grid.columns, geometry_);
+      stats.geometry_seconds += stage.Lap();
+      RunTiles(input, row, end, film, stats);
+      stats.raster_seconds += stage.Lap();
+      if (receive) receive(film, first), stage.Lap();
+    }
     stats.total_seconds = total.Lap();
     if (settings.progress) settings.progress(1.0);
   }
@@ -141,12 +172,17 @@ class Renderer::Frames {
     return *posed_;
   }
 
-  const EnvironmentMap* Environment(const FramePlan& plan, const RenderSettings& settings, RenderStats& stats) {
+  const EnvironmentMap* Environment(const FramePlan& plan, const RenderSettings& settings, MemoryBudget& budget,
+                                    RenderStats& stats) {
     if (!plan.environment_light && !plan.environment_background) return nullptr;
     const EnvironmentOptions options{plan.environment_background, settings.environment_size,
                                      settings.environment_samples, settings.irradiance};
     const auto picture = settings.environment.kind == EnvironmentSettings::Kind::Image ? settings.environment.image
                                                                                        : nullptr;  // the studio
+    if (picture != nullptr) {
+      const std::string size = std::to_string(picture->width) + " x " + std::to_string(picture->height);
+      budget.Add(ExpectedBytes(*picture, options), "an environment of " + size + " pixels", "scale it down");
+    }
     if (environment_ == nullptr || options != environment_options_ || picture != environment_picture_) {
       environment_ = picture != nullptr ? PrefilterEnvironment(*picture, options) : StudioEnvironment(options);
       environment_options_ = options;
@@ -175,6 +211,17 @@ Renderer::Renderer(const Scene& scene) : frames_(std::make_unique<Frames>(scene)
 Renderer::~Renderer() = default;
 
 void Renderer::Render(const RenderSettings& settings, Film& film, RenderStats* stats) {
+  Draw(settings, settings.height, film, {}, stats);
+}
+
+void Renderer::RenderBands(const RenderSettings& settings, int max_rows, const BandReceiver& receive,
+                           RenderStats* stats) {
+  Film band;
+  Draw(settings, max_rows, band, receive, stats);
+}
+
+void Renderer::Draw(const RenderSettings& settings, int max_rows, Film& film, const BandReceiver& receive,
+                    RenderStats* stats) {
   CheckSettings(settings);
   RenderStats unused;
   RenderStats& s = stats != nullptr ? *stats : unused;
@@ -183,7 +230,7 @@ void Renderer::Render(const RenderSettings& settings, Film& film, RenderStats* s
   try {
     RunWithThreads(settings.threads, [&] {
       s.threads = CurrentThreadCount();
-      frames_->Render(settings, film, s);
+      frames_->Render(settings, max_rows, film, receive, s);
     });
   } catch (const std::bad_alloc&) {
     throw Error(ErrorCode::OutOfMemory, "the machine has too little memory for this picture of this scene", {},
@@ -195,6 +242,11 @@ Film Render(const Scene& scene, const RenderSettings& settings, RenderStats* sta
   Film film;
   Renderer(scene).Render(settings, film, stats);
   return film;
+}
+
+void RenderBands(const Scene& scene, const RenderSettings& settings, int max_rows, const BandReceiver& receive,
+                 RenderStats* stats) {
+  Renderer(scene).RenderBands(settings, max_rows, receive, stats);
 }
 
 }  // namespace facet

@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "base/bytes_text.h"
 #include "base/parallel.h"
 #include "facet/error.h"
 #include "texture/build_texture.h"
@@ -13,12 +14,54 @@ namespace facet {
 
 namespace {
 
+// What the builder accepts, see texture/texture.h.
+constexpr int kMaxSide = 1 << (kMaxTextureLevels - 1), kMaxTexels = 1 << 27;
+
+// Of a texture with all its levels, as the picture's header has it.
+double ExpectedBytes(const ImageHeader& header, const PlannedTexture& planned, TexelBits texels) {
+  const bool wide = texels == TexelBits::Mixed ? planned.role == TextureRole::Color || header.bits > 8
+                                               : texels == TexelBits::Sixteen;
+  return double(header.width) * double(header.height) * (wide ? 8.0 : 4.0) * (planned.mips ? 4.0 / 3.0 : 1.0);
+}
+
+// Refuses what cannot be decoded, or is beyond the budget.
+void CheckSizes(const Scene& scene, const std::vector<bool>& needed, TexelBits texels, const FramePlan& plan,
+                const FrameTextures& textures, MemoryBudget& budget) {
+  double sum = 0.0, largest = 0.0;
+  std::string of_largest;
+  for (std::size_t t = 0; t < needed.size(); ++t) {
+    const PlannedTexture& planned = plan.textures[t];
+    if (!needed[t] || planned.image == kWhiteImage) continue;
+    const ImageSource& source = *scene.images[std::size_t(planned.image)].source;
+    const ImageHeader header = source.Header().value_or(ImageHeader());
+    const bool broken = header.format.empty() && double(header.bytes) < double(header.width) * header.height;
+    if (broken || header.width < 1 || header.height < 1) continue;  // decoding says more
+    const std::string size = std::to_string(header.width) + " x " + std::to_string(header.height);
+    const TextureData* const kept = textures.entries[t].data.get();
+    const double bytes = kept != nullptr ? double(kept->Bytes()) : ExpectedBytes(header, planned, texels);
+    if (header.width > kMaxSide || header.height > kMaxSide || double(header.width) * header.height > kMaxTexels) {
+      throw Error(ErrorCode::OutOfMemory,
+                  "a texture of " + size + " texels needs " + BytesText(bytes) + ", and the limit is " +
+                      std::to_string(kMaxSide) + " a side and " + BytesText(kMaxTexels * 32.0 / 3.0) + " in all",
+                  source.Name(), "scale the image down");
+    }
+    sum += bytes;
+    if (bytes <= largest) continue;
+    largest = bytes;
+    of_largest = source.Name() + ", " + size + ", " + BytesText(bytes);
+  }
+  if (sum > 0.0) {
+    budget.Add(static_cast<std::uint64_t>(sum), "textures (the largest: " + of_largest + ")",
+               "scale them down, or leave some out");
+  }
+}
+
 Image WhitePixel() { return {1, 1, 4, ChannelType::U8, Encoding::Srgb, std::vector<std::byte>(4, std::byte{255})}; }
 
 }  // namespace
 
 void DecodeTextures(const Scene& scene, const std::vector<bool>& material_visible, TexelBits texels, FramePlan& plan,
-                    FrameTextures& textures, RenderStats& stats) {
+                    FrameTextures& textures, MemoryBudget& budget, RenderStats& stats) {
   if (textures.planned != plan.textures || textures.texels != texels) {
     textures = {plan.textures, texels, {}};
     textures.entries.resize(plan.textures.size());
@@ -30,6 +73,7 @@ void DecodeTextures(const Scene& scene, const std::vector<bool>& material_visibl
       if (t >= 0) needed[std::size_t(t)] = true;
     }
   }
+  CheckSizes(scene, needed, texels, plan, textures, budget);
   // An image that is read in two roles is decoded once.
   std::vector<int> images;
   for (std::size_t t = 0; t < needed.size(); ++t) {

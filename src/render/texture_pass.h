@@ -7,6 +7,7 @@
 
 #include "facet/render.h"
 #include "plan/frame_plan.h"
+#include "render/memory_budget.h"
 #include "texture/texture.h"
 
 namespace facet {
@@ -24,8 +25,9 @@ struct FrameTextures {
 
 // Decodes what visible materials read and `textures` lacks, and fills the texture slots of the plan's materials. An
 // image that cannot be decoded gives a warning, and the materials do without it. Throws Error(MissingModule) where an
-// image needs a module that is not installed, Error(OutOfMemory) for images beyond the limits.
+// image needs a module that is not installed, Error(OutOfMemory) for images beyond the limits, before any is decoded
+// where their headers say so.
 void DecodeTextures(const Scene& scene, const std::vector<bool>& material_visible, TexelBits texels, FramePlan& plan,
-                    FrameTextures& textures, RenderStats& stats);
+                    FrameTextures& textures, MemoryBudget& budget, RenderStats& stats);
 
 }  // namespace facet

@@ -19,7 +19,8 @@ struct TilePassInput {
   const RenderSettings& settings;
 };
 
-// Fills the film (sized by the caller) and the counts of `stats`.
-void RunTiles(const TilePassInput& input, Film& film, RenderStats& stats);
+// Draws the rows of tiles [first_row, end_row) of the grid, which the geometry has lists for, into `film`, which the
+// caller has sized for them: its top row is the first one's. Adds to the counts of `stats`.
+void RunTiles(const TilePassInput& input, int first_row, int end_row, Film& film, RenderStats& stats);
 
 }  // namespace facet

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "base/bytes_text.h"
 #include "base/printable.h"
 #include "facet/error.h"
 
@@ -111,6 +112,23 @@ double ParseDuration(std::string_view option, std::string_view text, Range range
   Refuse(option, text, "a time", hint);
 }
 
+std::uint64_t ParseBytes(std::string_view option, std::string_view text) {
+  static constexpr std::string_view kUnits[] = {"MiB", "GiB", "TiB"};
+  const std::string hint = "give an amount from 1MiB to 1024TiB, such as 512MiB or 2GiB";
+  double unit_bytes = 1048576.0;
+  for (const std::string_view unit : kUnits) {
+    const std::optional<double> value =
+        text.ends_with(unit) ? WholeNumber(text.substr(0, text.size() - unit.size())) : std::nullopt;
+    if (value) {
+      const double bytes = *value * unit_bytes;
+      if (bytes < 0x1p20 || bytes > 0x1p50) Refuse(option, text, "in range", hint);
+      return static_cast<std::uint64_t>(bytes);
+    }
+    unit_bytes *= 1024.0;
+  }
+  Refuse(option, text, "an amount of memory", hint);
+}
+
 int ParseInteger(std::string_view option, std::string_view text, int low, int high) {
   int value = 0;
   const char* end = text.data() + text.size();
@@ -122,17 +140,26 @@ int ParseInteger(std::string_view option, std::string_view text, int low, int hi
 }
 
 Size ParseSize(std::string_view option, std::string_view text) {
-  constexpr int kMost = 16384;
+  constexpr std::int64_t kMost = 16384;
   const std::vector<std::string_view> parts = Split(text, 'x');
-  std::array<int, 2> sides = {0, 0};
+  std::array<std::int64_t, 2> sides = {0, 0};
   bool good = parts.size() == 2;
   for (std::size_t i = 0; good && i < 2; ++i) {
     const char* end = parts[i].data() + parts[i].size();
     const auto [stop, error] = std::from_chars(parts[i].data(), end, sides[i]);
-    good = error == std::errc() && stop == end && sides[i] >= 1 && sides[i] <= kMost;
+    good = error == std::errc() && stop == end && sides[i] >= 1;
   }
-  if (!good) Refuse(option, text, "a size", "give WIDTHxHEIGHT in pixels, each from 1 to 16384, such as 1280x720");
-  return {sides[0], sides[1]};
+  const std::string hint = "give WIDTHxHEIGHT in pixels, each from 1 to 16384, such as 1280x720";
+  if (!good) Refuse(option, text, "a size", hint);
+  if (sides[0] > kMost || sides[1] > kMost) {
+    const double bytes_per_pixel = sizeof(glm::vec4);  // of linear light
+    throw Error(ErrorCode::InvalidUsage,
+                Quoted(text) + " is too large: it needs " +
+                    BytesText(double(sides[0]) * double(sides[1]) * bytes_per_pixel) + ", and the limit is " +
+                    BytesText(double(kMost * kMost) * bytes_per_pixel),
+                std::string(option), hint);
+  }
+  return {static_cast<int>(sides[0]), static_cast<int>(sides[1])};
 }
 
 glm::dvec3 ParseVec3(std::string_view option, std::string_view text) {

@@ -24,6 +24,9 @@ double ParseNumber(std::string_view option, std::string_view text, Range range);
 // A duration in seconds: a number, and one of the units ms, s (also where none stands), min and h. `range`: seconds.
 double ParseDuration(std::string_view option, std::string_view text, Range range);
 
+// An amount of memory in bytes, from 1 MiB to 1024 TiB: a number and one of the units MiB, GiB and TiB.
+std::uint64_t ParseBytes(std::string_view option, std::string_view text);
+
 // A decimal integer in [low, high].
 int ParseInteger(std::string_view option, std::string_view text, int low, int high);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <fstream>
 #include <memory>
 #include <numbers>
 #include <utility>
@@ -9,7 +10,9 @@
 
 #include "base/printable.h"
 #include "facet/error.h"
+#include "image/probe.h"
 #include "light/studio.h"
+#include "render/memory_budget.h"
 
 namespace facet {
 namespace {
@@ -181,6 +184,23 @@ std::vector<std::string> Names(const std::vector<T>& things) {
   return names;
 }
 
+// Refuses a picture whose first bytes say that it is beyond the limit.
+Image LoadEnvironment(const std::filesystem::path& path, std::uint64_t memory_limit) {
+  if (memory_limit > 0) {
+    std::vector<char> start(std::size_t{1} << 20);
+    std::ifstream file(path, std::ios::binary);
+    file.read(start.data(), std::streamsize(start.size()));
+    start.resize(std::size_t(file.gcount()));
+    const ImageHeader header = ProbeImage(std::as_bytes(std::span(start))).value_or(ImageHeader());
+    const auto pixels = std::uint64_t(header.width) * std::uint64_t(header.height);
+    MemoryBudget(memory_limit)
+        .Add(pixels * std::uint64_t(header.channels * header.bits / 8 + 16),  // as in the file, and as linear light
+             "an environment of " + std::to_string(header.width) + " x " + std::to_string(header.height) + " pixels",
+             "scale it down");
+  }
+  return LoadImage(path);
+}
+
 CameraChoice PlacedCamera(const RenderRequest& request, const Scene& scene) {
   if (request.camera) {
     return SceneCamera{Choose("--camera", "camera", *request.camera, Names(scene.cameras))};
@@ -250,7 +270,8 @@ RenderSettings ResolveRequest(const RenderRequest& request, const Scene& scene, 
   }
   if (request.variant) settings.variant = Choose("--variant", "variant", *request.variant, scene.variants);
   if (request.environment) {
-    settings.environment.image = std::make_shared<const Image>(LoadImage(base / *request.environment));
+    settings.environment.image =
+        std::make_shared<const Image>(LoadEnvironment(base / *request.environment, settings.memory_limit));
   }
   return settings;
 }

@@ -1,0 +1,11 @@
+// The digest of facet/digest.h for a film that comes in bands: the bytes of all its rows follow, top row first.
+#pragma once
+
+#include "base/sha256.h"
+
+namespace facet {
+
+// HashFilm()'s beginning.
+Sha256 BeginFilmHash(int width, int height);
+
+}  // namespace facet
