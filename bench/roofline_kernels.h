@@ -11,8 +11,9 @@ struct OperationCounts {
   double simple = 0.0, divisions = 0.0, roots = 0.0;
 };
 
-// Reads the 2 x 2 texels of each tap, 16 bytes a texel, in squares of 4 x 4 as facet keeps textures. A tap is the
-// number of its upper left texel, with the mip level in the upper five bits; `pitch`: squares in a row of each level.
+// Reads the 2 x 2 texels of each tap, 16 bytes a texel, in squares of 4 x 4, which touch the fewest cache lines. A tap
+// is the number of its upper left texel, with the mip level in the upper five bits; `pitch`: squares in a row of each
+// level.
 inline constexpr int kTapLevelShift = 27;
 std::int64_t ReadTaps(const std::uint32_t* taps, std::size_t count, const std::int32_t* texels,
                       const std::int32_t* pitch);

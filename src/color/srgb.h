@@ -43,7 +43,7 @@ struct SrgbTables {
   static constexpr std::int32_t kFirstBits = 0x39000000;  // 2^-13; all below has code 0
   static constexpr int kBucketCount = (0x3F800000 - kFirstBits) >> kBucketShift;
   std::array<float, 257> thresholds8;
-  // None holds two thresholds. The code at the start of the bucket times 2^16, plus as much as makes adding a float's
+  // No bucket holds two thresholds. The code at the start of the bucket times 2^16, plus as much as makes adding a float's
   // place in the bucket carry into the code from the bucket's threshold on: (ramps8[bucket] + place) >> 16 is the code.
   std::array<std::int32_t, kBucketCount> ramps8;
 };

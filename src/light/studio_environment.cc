@@ -6,6 +6,7 @@
 #include <mutex>
 #include <utility>
 
+#include "base/check.h"
 #include "light/studio.h"
 #include "light/studio_table.h"
 
@@ -15,6 +16,7 @@ namespace {
 std::shared_ptr<const EnvironmentMap> FromTable() {
   auto map = std::make_shared<EnvironmentMap>();
   LayOutLevels(kStudioMaxSize, *map);
+  FACET_CHECK_OP(map->texels.size(), ==, 4 * kStudioTableSize);
   for (std::size_t i = 0; i < map->texels.size(); ++i) {
     if (i % 4 < 3) map->texels[i] = std::bit_cast<float>(kStudioTable[i / 4]);
   }

@@ -1,5 +1,5 @@
-// Prepares the studio as any environment is prepared, and writes what comes out as a C++ source: kStudioTable. Part of the
-// build; the bits are those that preparing it at run time gives.
+// Prepares the studio as any environment is prepared, and writes what comes out as a C++ source: kStudioTable. Part of
+// the build; the bits are those that preparing it at run time gives.
 #include <bit>
 #include <cstdio>
 
@@ -18,6 +18,7 @@ int main(int argc, char** argv) {
     const std::uint32_t red = std::bit_cast<std::uint32_t>(map->texels[i]);
     std::fprintf(file, "0x%08x,%s", unsigned(red), i % 40 == 36 ? "\n" : "");
   }
-  std::fprintf(file, "};\n}  // namespace facet\n");
-  return std::fclose(file) == 0 ? 0 : 1;
+  std::fprintf(file, "};\nconst std::size_t kStudioTableSize = %zu;\n}  // namespace facet\n", map->texels.size() / 4);
+  const bool written = std::ferror(file) == 0;
+  return std::fclose(file) == 0 && written ? 0 : 1;
 }

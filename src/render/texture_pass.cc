@@ -21,7 +21,7 @@ constexpr int kMaxSide = 1 << (kMaxTextureLevels - 1), kMaxTexels = 1 << 27;
 double ExpectedBytes(const ImageHeader& header, const PlannedTexture& planned, TexelBits texels) {
   const bool wide = texels == TexelBits::Mixed ? planned.role == TextureRole::Color || header.bits > 8
                                                : texels == TexelBits::Sixteen;
-  return double(header.width) * double(header.height) * (wide ? 8.0 : 4.0) * (planned.mips ? 4.0 / 3.0 : 1.0);
+  return double(TexelCount(header.width, header.height, planned.mips)) * (wide ? 8.0 : 4.0);
 }
 
 // Refuses what cannot be decoded, or is beyond the budget.

@@ -159,6 +159,13 @@ TextureData TextureBuilder::Finish() {
   return std::move(texture_);
 }
 
+std::size_t TexelCount(int width, int height, bool mips) {
+  for (std::size_t texels = 0;; width = Half(width), height = Half(height)) {
+    texels += (std::size_t(width) + 1) * std::size_t(height);
+    if (!mips || (width == 1 && height == 1)) return texels;
+  }
+}
+
 TextureData BuildTexture(const Image& image, TextureRole role, bool mips, TexelBits bits) {
   TextureBuilder builder(image, image.height, role, mips, bits);
   builder.Add(image);

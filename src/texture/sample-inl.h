@@ -52,7 +52,7 @@ HWY_INLINE AxisTaps<T> MakeTaps(Wrap wrap, T position, IntOf<T> size, MaskOf<T> 
       return Select(k > last, k - size, k);
     };
     taps.first = wrapped(i);
-    taps.second = wrapped(i + IntOf<T>(1));
+    taps.second = Select(taps.first < last, taps.first + IntOf<T>(1), IntOf<T>(0));
   } else {
     taps.first = Max(Min(i, last), IntOf<T>(0));
     taps.second = Min(taps.first + IntOf<T>(1), last);
@@ -272,8 +272,8 @@ HWY_INLINE void PrefetchRow(const std::int32_t* words, std::ptrdiff_t words_each
   }
 }
 
-// Of all that will be read at `taps`. Neighbouring lanes read neighbouring texels, so that every second lane, of the
-// coarser level every fourth, names nearly all the cache lines.
+// Of most that will be read at `taps`. Neighbouring lanes read neighbouring texels: every second lane, of the coarser
+// level every fourth, names nearly as many cache lines as all, and what is a lane's lower row is often another's upper.
 template <class T>
 HWY_INLINE void PrefetchTexels(const TextureData& data, const TextureTaps<T>& taps) {
   const std::int32_t* words = data.words.data();

@@ -39,6 +39,9 @@ struct TextureData {
   }
 };
 
+// How many texels a picture's levels take, as they are laid out.
+std::size_t TexelCount(int width, int height, bool mips);
+
 // Builds a texture from a decoded picture. Each level halves the one above, rounding down; a texel is the mean, in
 // linear light, of the area it covers, also where a size is odd. `mips`: false keeps level 0 alone.
 // Throws Error: OutOfMemory for pictures beyond 32768 texels a side or 2^27 texels, InvalidInput for pictures without

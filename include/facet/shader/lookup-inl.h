@@ -104,13 +104,15 @@ HWY_INLINE Int FetchOf16(const std::int32_t* p, Int index) {
 HWY_INLINE std::int32_t FetchOf16(const std::int32_t* p, std::int32_t index) { return p[index]; }
 
 // Several numbers that stand side by side in memory, p[index], p[index + 1] and so on, for each lane: one wide load a
-// lane and a transposition. Processors gather element by element, so a gather for each takes about as many times as long.
+// lane and a transposition. Processors gather element by element, so that a gather for each takes about as many times as
+// long.
 #if HWY_TARGET != HWY_SCALAR
 // The two numbers at p + at[0], those at p + at[1], and so on, side by side.
 template <int kScale, class D64>
 HWY_INLINE hn::Vec<D64> PairsInOrder(D64 d, const std::int32_t* p, const std::int32_t* at) {
   if constexpr (hn::MaxLanes(D64()) == 1) {
-    return hn::LoadU(d, reinterpret_cast<const std::int64_t*>(p + std::ptrdiff_t(at[0]) * kScale));
+    const hn::Repartition<std::int32_t, D64> two;  // p is aligned for no more than that
+    return hn::BitCast(d, hn::LoadU(two, p + std::ptrdiff_t(at[0]) * kScale));
   } else {
     const hn::Half<D64> half;
     return hn::Combine(d, PairsInOrder<kScale>(half, p, at + hn::MaxLanes(half)), PairsInOrder<kScale>(half, p, at));
@@ -123,14 +125,15 @@ HWY_INLINE hn::Vec<D> EveryFourthRow(D d, const Number* p, const std::int32_t* a
     return hn::LoadU(d, p + std::ptrdiff_t(at[0]) * kScale);
   } else {
     const hn::Half<D> half;
-    return hn::Combine(d, EveryFourthRow<kScale>(half, p, at + hn::MaxLanes(half)), EveryFourthRow<kScale>(half, p, at));
+    return hn::Combine(d, EveryFourthRow<kScale>(half, p, at + hn::MaxLanes(half)),
+                       EveryFourthRow<kScale>(half, p, at));
   }
 }
 // Four numbers for each lane.
 template <int kScale, class D, class Number>
 HWY_INLINE void TransposedRows(D d, const Number* p, const std::int32_t* at, hn::Vec<D>* out) {
-  const auto r0 = EveryFourthRow<kScale>(d, p, at), r1 = EveryFourthRow<kScale>(d, p, at + 1), r2 = EveryFourthRow<kScale>(d, p, at + 2),
-             r3 = EveryFourthRow<kScale>(d, p, at + 3);
+  const auto r0 = EveryFourthRow<kScale>(d, p, at), r1 = EveryFourthRow<kScale>(d, p, at + 1),
+             r2 = EveryFourthRow<kScale>(d, p, at + 2), r3 = EveryFourthRow<kScale>(d, p, at + 3);
   const auto xy02 = hn::InterleaveLower(d, r0, r2), zw02 = hn::InterleaveUpper(d, r0, r2);
   const auto xy13 = hn::InterleaveLower(d, r1, r3), zw13 = hn::InterleaveUpper(d, r1, r3);
   out[0] = hn::InterleaveLower(d, xy02, xy13);
