@@ -123,8 +123,9 @@ struct RenderSettings {
   IrradianceMethod irradiance = IrradianceMethod::Convolution;
   TangentSource tangents = TangentSource::File;
   int tile_size = 32;      // 8, 16, 32 or 64: never changes the picture
-  // Bytes that film, geometry, textures and environment may take together; 0: no limit. What is known to need more is
-  // refused before it is allocated. The rest (lists, what is being decoded) is not counted.
+  // Bytes that the film (or a band of it), the scene's geometry, the frame's textures and its environment may take
+  // together; 0: no limit. What is known to need more is refused before it is allocated. The rest (posed copies, lists,
+  // what is being decoded, what a Renderer keeps of earlier frames) is not counted.
   std::uint64_t memory_limit = 0;
   int scene = -1;          // -1: the default one
   int animation = -1;      // -1: rest pose

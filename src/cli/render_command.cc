@@ -110,11 +110,14 @@ int BandRows(const RenderOptions& options) {
 }
 
 // What it takes to write a picture that is drawn whole; RenderSettings::memory_limit is about drawing it.
-void CheckMemory(const RenderRequest& request) {
+void CheckMemory(const RenderOptions& options) {
+  const RenderRequest& request = options.request;
   const RenderSettings& settings = request.settings;
   const std::uint64_t pixels = std::uint64_t(settings.width) * std::uint64_t(settings.height);
   const std::string size = std::to_string(settings.width) + " x " + std::to_string(settings.height) + " pixels";
-  const std::string remedy = "make the picture smaller, or write it as .png, which is done piece by piece";
+  const std::string remedy = FormatOf(options.output).extension == ".png"
+                                 ? "make the picture smaller, or write it to a plain file, which is done piece by piece"
+                                 : "make the picture smaller, or write it as .png, which is done piece by piece";
   MemoryBudget budget(settings.memory_limit);
   budget.Add(pixels * sizeof(glm::vec4), "a film of " + size, remedy);
   budget.Add(2 * pixels * 4 * SizeOf(request.type), "its developed pixels and the encoder's copy", remedy);
@@ -151,12 +154,13 @@ class Drawing {
       DrawWithProgress(options_, settings_, [&](const RenderSettings& settings) {
         RenderBands(loaded_.scene, settings, rows, add, &stats_.render);
       });
+      stats_.render_seconds = stage_.Lap() - stats_.develop_seconds - stats_.write_seconds;
+      PrintWarnings(stats_.render.warnings, options_.quiet);
       provenance.film = film_hash.Finish();
       provenance.pixels = pixel_hash.Finish();
       png->Finish(ToPngText(provenance));
     });
-    stats_.render_seconds = stage_.Lap() - stats_.develop_seconds - stats_.write_seconds;
-    PrintWarnings(stats_.render.warnings, options_.quiet);
+    stats_.write_seconds += stage_.Lap();
   }
 
   void Whole() {
@@ -209,8 +213,14 @@ class Drawing {
 void RenderToFile(RenderOptions& options) {
   Reconcile(options);
   const int band_rows = BandRows(options);
-  if (band_rows == 0) CheckMemory(options.request);
+  if (band_rows == 0) CheckMemory(options);
+  const std::uint64_t limit = options.request.settings.memory_limit;
+  if (limit > 0) options.load.max_geometry_bytes = std::min<std::uint64_t>(options.load.max_geometry_bytes, limit);
   if (options.bound.max_relative_rmse || options.bound.max_seconds) {
+    if (limit > 0 && !options.report) {
+      throw Error(ErrorCode::InvalidUsage, "measuring what a bound takes keeps several whole pictures", "--memory-limit",
+                  "give --report, made without the limit");
+    }
     const Choice choice = ChooseApproximations(options);
     if (!choice.kept) {
       PrintWarning(choice.why);
@@ -220,9 +230,6 @@ void RenderToFile(RenderOptions& options) {
   } else if (options.report || options.budget_seconds) {
     throw Error(ErrorCode::InvalidUsage, "there is no bound to choose by", options.report ? "--report" : "--budget",
                 "add --max-error or --max-time");
-  }
-  if (const std::uint64_t limit = options.request.settings.memory_limit; limit > 0) {
-    options.load.max_geometry_bytes = std::min<std::uint64_t>(options.load.max_geometry_bytes, limit);
   }
   Stopwatch total;
   CommandStats stats;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/bytes_text.h"
 #include "facet/load.h"
 #include "gltf/bytes.h"
 #include "gltf/document.h"
@@ -35,8 +36,8 @@ struct Context {
     const std::size_t unfolded = kSmall + report.file_bytes * kUnfolding;
     const std::size_t bound = unfolded < options.max_geometry_bytes ? unfolded : options.max_geometry_bytes;
     if (geometry_bytes > bound || (size_each != 0 && count > (bound - geometry_bytes) / size_each)) {
-      Fail(where, "the geometry needs more memory than the bound of " + std::to_string(bound) + " bytes",
-           bound == unfolded ? "so small a file should not unfold so far" : "raise the limit (LoadOptions::max_geometry_bytes)",
+      Fail(where, "the geometry needs more memory than the limit of " + BytesText(double(bound)),
+           bound == unfolded ? "so small a file should not unfold so far" : "raise the limit",
            ErrorCode::OutOfMemory);
     }
     geometry_bytes += count * size_each;

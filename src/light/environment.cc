@@ -269,6 +269,13 @@ void FillIrradiance(EnvironmentMap* map, const std::vector<SourceTexel>& source,
 
 }  // namespace
 
+// About as many texels around as the picture has: an octahedral map's equator is four half-edges of 45 degrees tilt.
+std::int32_t SharpestLevelSize(std::int32_t picture_width, std::int32_t max_size) {
+  std::int32_t base = kSmallestBase;
+  while (base * 2 <= picture_width / 2 && base * 2 <= max_size) base *= 2;
+  return base;
+}
+
 void LayOutLevels(std::int32_t base, EnvironmentMap& map) {
   std::int32_t floats = 0;
   const auto place = [&floats](std::int32_t size) {
@@ -299,9 +306,7 @@ std::shared_ptr<const EnvironmentMap> PrefilterEnvironment(const Image& equirect
     map->picture_data = map->picture.data();
   }
 
-  // About as many texels around as the picture has: an octahedral map's equator is four half-edges of 45 degrees tilt.
-  std::int32_t base = kSmallestBase;
-  while (base * 2 <= width / 2 && base * 2 <= options.max_size) base *= 2;
+  const std::int32_t base = SharpestLevelSize(width, options.max_size);
   while (width / 4 >= base && width % 2 == 0 && height % 2 == 0 && height >= 4) {
     picture = HalvePicture(picture, width, height);
     width /= 2;

@@ -75,6 +75,9 @@ struct EnvironmentOptions {
 std::shared_ptr<const EnvironmentMap> PrefilterEnvironment(const Image& equirectangular,
                                                            const EnvironmentOptions& options = {});
 
+// What that takes from options.max_size for a picture: texels along level 0.
+std::int32_t SharpestLevelSize(std::int32_t picture_width, std::int32_t max_size);
+
 // The first step of that: where the levels stand, sharpest of `base` texels, one after the other, then the irradiance;
 // all black.
 void LayOutLevels(std::int32_t base, EnvironmentMap& map);

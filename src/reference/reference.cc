@@ -43,6 +43,7 @@ void CheckSettings(const RenderSettings& settings, const ReferenceSettings& refe
   CheckRange("a number of batches", reference.batches, 2, 65536);
   CheckRange("a target error", reference.target_error, 0, kInfinity);
   CheckRange("a time budget", reference.time_budget, 0, kInfinity);
+  CheckRange("a time to give up after", reference.give_up_after, 0, kInfinity);
   if (settings.environment.kind == EnvironmentSettings::Kind::Image && settings.environment.image == nullptr) {
     throw Error(ErrorCode::InvalidUsage, "no environment picture", "reference settings",
                 "set environment.image or another environment.kind");
@@ -211,8 +212,13 @@ ReferenceFilm RenderBatches(const Scene& scene, const RenderSettings& settings, 
   film.standard_error.assign(count, glm::dvec4(0.0));
   std::vector<glm::dvec4> squares(count, glm::dvec4(0.0));  // of deviations from the mean, summed
   constexpr std::size_t kGrain = 32;                        // pixels
+  std::atomic<bool> late{false};
   for (double before = elapsed(); film.batches < reference.batches;) {
     ParallelFor(count, kGrain, [&](std::size_t begin, std::size_t end) {
+      if (late || (film.batches < 2 && elapsed() > reference.give_up_after)) {
+        late = true;
+        return;
+      }
       ReferenceScene::Scratch scratch;
       for (std::size_t i = begin; i < end; ++i) {
         const int x = int(i % std::size_t(film.width)), y = int(i / std::size_t(film.width));
@@ -225,6 +231,12 @@ ReferenceFilm RenderBatches(const Scene& scene, const RenderSettings& settings, 
         film.standard_error[i] = glm::sqrt(squares[i] / (n * std::max(n - 1.0, 1.0)));
       }
     });
+    if (late) {
+      throw Error(ErrorCode::InvalidUsage,
+                  "a reference of " + std::to_string(film.width) + " x " + std::to_string(film.height) +
+                      " pixels is not done in the time there is",
+                  {}, "give it a larger budget, or a smaller picture");
+    }
     ++film.batches;
     SumUp(film);
     if (settings.progress) settings.progress(double(film.batches) / reference.batches);

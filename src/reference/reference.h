@@ -33,6 +33,8 @@ struct ReferenceSettings {
   // Seconds; no batch is begun that would probably end later, but two are always made. The number of batches, and so
   // the picture, then depends on the machine's speed.
   double time_budget = std::numeric_limits<double>::infinity();
+  // Seconds: where those two are not made by then there is no picture, but an Error(InvalidUsage).
+  double give_up_after = std::numeric_limits<double>::infinity();
   // Another seed, another picture, independent of the first.
   std::uint64_t seed = 0;
 };

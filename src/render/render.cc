@@ -51,7 +51,7 @@ void CheckSettings(const RenderSettings& s) {
     const double bytes = double(s.width) * s.height * sizeof(glm::vec4);
     const double most = double(kMaxPictureSize) * kMaxPictureSize * sizeof(glm::vec4);
     Refuse("a picture of " + std::to_string(s.width) + " x " + std::to_string(s.height) + " pixels" +
-               (bytes > most ? " needs " + BytesText(bytes) : ""),
+               (bytes > most && s.width > 0 ? " needs " + BytesText(bytes) : ""),
            "each side is 1 to " + std::to_string(kMaxPictureSize) + ", " + BytesText(most) + " in all");
   }
   if (s.samples != 1 && s.samples != 2 && s.samples != 4 && s.samples != 8) {
@@ -94,7 +94,7 @@ std::size_t BytesOf(const Primitives& primitives) {
 
 // Of the environment's picture, its copies in linear light, and its maps.
 std::size_t ExpectedBytes(const Image& picture, const EnvironmentOptions& options) {
-  const auto size = std::size_t(options.max_size);
+  const auto size = std::size_t(SharpestLevelSize(picture.width, options.max_size));
   const std::size_t floats = picture.PixelCount() * (options.keep_picture ? 2 : 1) + 3 * size * size;
   return picture.bytes.size() + floats * 4 * sizeof(float);
 }
@@ -151,9 +151,9 @@ class Renderer::Frames {
     for (int row = 0; row < grid.rows; row += band_tiles) {
       const int end = std::min(row + band_tiles, grid.rows), first = row * grid.tile_size;
       film.height = std::min(end * grid.tile_size, settings.height) - first;
-      film.pixels.resize(std::size_t(film.width) * std::size_t(film.height));
       ListTiles(plan, row * grid.columns, end * grid.columns, geometry_);
       stats.geometry_seconds += stage.Lap();
+      film.pixels.resize(std::size_t(film.width) * std::size_t(film.height));
       RunTiles(input, row, end, film, stats);
       stats.raster_seconds += stage.Lap();
       if (receive) receive(film, first), stage.Lap();

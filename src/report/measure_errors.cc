@@ -26,6 +26,7 @@ namespace {
 
 constexpr int kThumbnail = 256;                // pixels along the longer side
 constexpr double kReferenceShare = 0.5;        // of the budget
+constexpr double kShortestWait = 20.0;         // seconds for the least reference there is, whatever the budget
 constexpr int kFewestRuns = 3, kMostRuns = 7;  // of a point: about a second of them
 
 class Clock {
@@ -111,6 +112,7 @@ class Sweep {
     settings.samples = 16;
     settings.batches = 65536;
     settings.time_budget = kReferenceShare * report_.budget_seconds;
+    settings.give_up_after = std::max(2.0 * report_.budget_seconds, kShortestWait);
     reference_ = RenderReference(scene_, resolved_, settings);
     developed_reference_ = Develop(ToFilm(reference_), request_.display);
     out_.reference = {settings.samples,     reference_.batches,        reference_.seconds,

@@ -153,10 +153,11 @@ Size ParseSize(std::string_view option, std::string_view text) {
   if (!good) Refuse(option, text, "a size", hint);
   if (sides[0] > kMost || sides[1] > kMost) {
     const double bytes_per_pixel = sizeof(glm::vec4);  // of linear light
+    const double bytes = double(sides[0]) * double(sides[1]) * bytes_per_pixel;
+    const double most = double(kMost * kMost) * bytes_per_pixel;
     throw Error(ErrorCode::InvalidUsage,
-                Quoted(text) + " is too large: it needs " +
-                    BytesText(double(sides[0]) * double(sides[1]) * bytes_per_pixel) + ", and the limit is " +
-                    BytesText(double(kMost * kMost) * bytes_per_pixel),
+                Quoted(text) + " is too large" +
+                    (bytes > most ? ": it needs " + BytesText(bytes) + ", and the limit is " + BytesText(most) : ""),
                 std::string(option), hint);
   }
   return {static_cast<int>(sides[0]), static_cast<int>(sides[1])};

@@ -186,7 +186,7 @@ std::vector<std::string> Names(const std::vector<T>& things) {
 
 // Refuses a picture whose first bytes say that it is beyond the limit.
 Image LoadEnvironment(const std::filesystem::path& path, std::uint64_t memory_limit) {
-  if (memory_limit > 0) {
+  if (memory_limit > 0 && std::filesystem::is_regular_file(path)) {  // a pipe is read once
     std::vector<char> start(std::size_t{1} << 20);
     std::ifstream file(path, std::ios::binary);
     file.read(start.data(), std::streamsize(start.size()));

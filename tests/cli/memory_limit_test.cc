@@ -22,8 +22,8 @@ class FacetMemoryLimit : public testing::Test {
   }
 
   // Exit code 7, one line with `part` in it, and no file.
-  void ExpectRefused(const Outcome& run, const std::string& part) const {
-    EXPECT_EQ(run.exit_code, 7) << run.err;
+  void ExpectRefused(const Outcome& run, const std::string& part, int exit_code = 7) const {
+    EXPECT_EQ(run.exit_code, exit_code) << run.err;
     EXPECT_TRUE(IsOneErrorLine(run.err)) << run.err;
     EXPECT_NE(run.err.find(part), std::string::npos) << run.err;
     for (const std::string& name : folder_.Files()) EXPECT_EQ(name.find(".part-"), std::string::npos) << name;
@@ -104,7 +104,13 @@ TEST_F(FacetMemoryLimit, RefusesEnvironmentsByTheirHeader) {
                 "3.5 GiB for an environment of 16384 x 8192 pixels");
 }
 
+TEST_F(FacetMemoryLimit, MeasuringIsNotBounded) {
+  ExpectRefused(Draw(tiny_, whole_, {"--memory-limit", "1GiB", "--max-error", "0.5"}), "give --report", 2);
+}
+
 TEST_F(FacetMemoryLimit, NamesTheSizeOfPicturesBeyondAllLimits) {
+  const Outcome narrow = Draw(tiny_, whole_, {"--size", "20000x10"});
+  EXPECT_NE(narrow.err.find("--size: '20000x10' is too large; give"), std::string::npos) << narrow.err;
   const Outcome run = Draw(tiny_, whole_, {"--size", "1000000x1000000"});
   EXPECT_EQ(run.exit_code, 2);
   EXPECT_TRUE(IsOneErrorLine(run.err)) << run.err;

@@ -225,6 +225,20 @@ TEST(Reference, StopsWhereItIsTold) {
   EXPECT_GT(film.relative_error, 0.0);
 }
 
+TEST(Reference, GivesUpWhereTwoBatchesTakeTooLong) {
+  ReferenceSettings effort = Effort(4, 1, 3);
+  effort.give_up_after = 0.0;
+  try {
+    RenderReference(Balls(), BallSettings(8), effort);
+    ADD_FAILURE() << "did not throw";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::InvalidUsage);
+    EXPECT_EQ(error.message(), "a reference of 8 x 8 pixels is not done in the time there is");
+  }
+  effort.give_up_after = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(RenderReference(Balls(), BallSettings(8), effort).batches, 3);
+}
+
 TEST(Reference, RefusesWhatIsOutOfRange) {
   const auto refused = [](const RenderSettings& settings, const ReferenceSettings& effort) {
     try {

@@ -212,6 +212,12 @@ TEST(MemoryLimit, CountsTheEnvironment) {
   EXPECT_EQ(Refusal(scene, settings), "");
   settings.background = Background::Environment;
   EXPECT_TRUE(Has(Refusal(scene, settings), "17.7 MiB for an environment")) << "the picture is kept as well";
+  // A small picture makes small maps, however large they may be.
+  settings.environment.image = std::make_shared<const Image>(
+      Image{64, 32, 3, ChannelType::U8, Encoding::Srgb, std::vector<std::byte>(64 * 32 * 3)});
+  settings.environment_size = RenderSettings().environment_size;
+  settings.memory_limit = 1 << 20;
+  EXPECT_EQ(Refusal(scene, settings), "");
 }
 
 TEST(MemoryLimit, NeverChangesThePicture) {
