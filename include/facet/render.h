@@ -153,6 +153,7 @@ struct TextureStats {
   bool color = false;        // kept as colour; otherwise as numbers
   int width = 0, height = 0; // texels of its largest level
   int levels = 0;
+  int channels = 0;          // no more than are read
   int bits = 0;              // of a channel
   std::size_t bytes = 0;     // of all levels
 };

@@ -61,8 +61,8 @@ HWY_INLINE Vec3<T> SampleEquirectangular(const float* picture, std::int32_t widt
   const IntOf<T> top = TruncateToInt(y0) * row;
   const IntOf<T> i00 = top + TruncateToInt(x0) * four;
   const IntOf<T> i10 = top + TruncateToInt(x1) * four;
-  const auto texel = [&](IntOf<T> i) HWY_ATTR { return Xyz(FetchVec4<T>(picture, i)); };
-  return Mix(Mix(texel(i00), texel(i10), fx), Mix(texel(i00 + row), texel(i10 + row), fx), fy);
+  const T left = T(1.0f) - fx, above = T(1.0f) - fy;
+  return WeighFour<T>(picture, {i00, i10, i00 + row, i10 + row}, {left * above, fx * above, left * fy, fx * fy});
 }
 
 // What is seen in a direction: the picture where it was kept, else level 0.

@@ -50,13 +50,9 @@ HWY_INLINE Vec3<T> SampleTexels(const float* texels, T x, T y, T last, IntOf<T> 
   const T fy = y - y0;
   const IntOf<T> i00 = offset + TruncateToInt(y0) * row + TruncateToInt(x0) * IntOf<T>(4);
   const IntOf<T> i01 = i00 + row;
-  const T w00 = (T(1.0f) - fx) * (T(1.0f) - fy);
-  const T w10 = fx * (T(1.0f) - fy);
-  const T w01 = (T(1.0f) - fx) * fy;
-  const T w11 = fx * fy;
-  const auto texel = [&](IntOf<T> i) HWY_ATTR { return Xyz(FetchVec4<T>(texels, i)); };
   const IntOf<T> four = 4;
-  return (texel(i00) * w00 + texel(i00 + four) * w10) + (texel(i01) * w01 + texel(i01 + four) * w11);
+  const T left = T(1.0f) - fx, top = T(1.0f) - fy;
+  return WeighFour<T>(texels, {i00, i00 + four, i01, i01 + four}, {left * top, fx * top, left * fy, fx * fy});
 }
 
 // A square of `size` x `size` cells with texels at its nodes, at uv in [0, 1]^2.

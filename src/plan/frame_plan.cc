@@ -62,15 +62,17 @@ class Planner {
       const TextureRef& ref;
       MaterialFeature feature;
       TextureRole role;
+      int channels;
       TextureSlot& slot;
     };
+    const int base_channels = material.alpha_mode == AlphaMode::Opaque ? kRgb : kRgba;
     const Use uses[5] = {
-        {material.base_color_texture, kBaseColorTexture, TextureRole::Color, f.base_color_texture},
-        {material.metallic_roughness_texture, kMetallicRoughnessTexture, TextureRole::Data,
+        {material.base_color_texture, kBaseColorTexture, TextureRole::Color, base_channels, f.base_color_texture},
+        {material.metallic_roughness_texture, kMetallicRoughnessTexture, TextureRole::Data, kG | kB,
          f.metallic_roughness_texture},
-        {material.normal_texture, kNormalTexture, TextureRole::Data, f.normal_texture},
-        {material.occlusion_texture, kOcclusionTexture, TextureRole::Data, f.occlusion_texture},
-        {material.emissive_texture, kEmissiveTexture, TextureRole::Color, f.emissive_texture},
+        {material.normal_texture, kNormalTexture, TextureRole::Data, kRgb, f.normal_texture},
+        {material.occlusion_texture, kOcclusionTexture, TextureRole::Data, kR, f.occlusion_texture},
+        {material.emissive_texture, kEmissiveTexture, TextureRole::Color, kRgb, f.emissive_texture},
     };
     for (int i = 0; i < 5; ++i) {
       const Use& use = uses[i];
@@ -82,7 +84,7 @@ class Planner {
       }
       use.slot.sampler = texture.sampler;
       use.slot.sampler.mip = std::min(texture.sampler.mip, settings_.mip_filter);
-      planned.textures[i] = TextureFor(texture.image, use.role, use.slot.sampler.mip != MipFilter::None);
+      planned.textures[i] = TextureFor(texture.image, use.role, use.slot.sampler.mip != MipFilter::None, use.channels);
       use.slot.max_anisotropy = static_cast<float>(settings_.max_anisotropy);
       use.slot.uv_slot = SlotFor(f, use.ref.tex_coord);
       SetTransform(use.ref, use.slot);
@@ -112,10 +114,12 @@ class Planner {
     leave_out(Feature::Blending, m.alpha_mode == AlphaMode::Blend, opaque);
   }
 
-  int TextureFor(int image, TextureRole role, bool mips) {
+  int TextureFor(int image, TextureRole role, bool mips, int channels) {
     const auto [known, is_new] = textures_.try_emplace({image, role}, static_cast<int>(plan.textures.size()));
-    if (is_new) plan.textures.push_back({image, role, false});
-    plan.textures[std::size_t(known->second)].mips |= mips;
+    if (is_new) plan.textures.push_back({image, role, false, 0});
+    PlannedTexture& planned = plan.textures[std::size_t(known->second)];
+    planned.mips |= mips;
+    planned.channels |= channels;
     return known->second;
   }
 

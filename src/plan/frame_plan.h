@@ -18,6 +18,7 @@ struct PlannedTexture {
   int image = kWhiteImage;
   TextureRole role = TextureRole::Data;
   bool mips = false;
+  int channels = 0;  // that are read: bits of ChannelMask
 
   bool operator==(const PlannedTexture&) const = default;
 };

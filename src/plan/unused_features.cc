@@ -8,7 +8,7 @@ namespace {
 
 // A white texture of one texel, as FramePlan::textures has it; made where it is missing.
 int WhiteTexture(TextureRole role, FramePlan& plan) {
-  const PlannedTexture white{kWhiteImage, role, false};
+  const PlannedTexture white{kWhiteImage, role, false, kRgba};
   const auto place = std::find(plan.textures.begin(), plan.textures.end(), white);
   const int index = static_cast<int>(place - plan.textures.begin());
   if (place == plan.textures.end()) plan.textures.push_back(white);

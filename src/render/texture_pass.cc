@@ -1,6 +1,7 @@
 #include "render/texture_pass.h"
 
 #include <algorithm>
+#include <bit>
 #include <exception>
 #include <map>
 #include <utility>
@@ -19,9 +20,12 @@ constexpr int kMaxSide = 1 << (kMaxTextureLevels - 1), kMaxTexels = 1 << 27;
 
 // Of a texture with all its levels, as the picture's header has it.
 double ExpectedBytes(const ImageHeader& header, const PlannedTexture& planned, TexelBits texels) {
+  const bool grey = header.channels == 1 || header.channels == 2, no_alpha = header.channels % 2 == 1;
+  const auto read = static_cast<unsigned>(planned.channels & (no_alpha ? kRgb : kRgba));
+  const int numbers = grey ? ((read & kRgb) != 0) + ((read & kA) != 0) : std::popcount(read);
   const bool wide = texels == TexelBits::Mixed ? planned.role == TextureRole::Color || header.bits > 8
                                                : texels == TexelBits::Sixteen;
-  return double(TexelCount(header.width, header.height, planned.mips)) * (wide ? 8.0 : 4.0);
+  return double(TexelCount(header.width, header.height, planned.mips)) * (wide ? 2.0 : 1.0) * std::max(numbers, 1);
 }
 
 // Refuses what cannot be decoded, or is beyond the budget.
@@ -38,7 +42,7 @@ void CheckSizes(const Scene& scene, const std::vector<bool>& needed, TexelBits t
     if (broken || header.width < 1 || header.height < 1) continue;  // decoding says more
     const std::string size = std::to_string(header.width) + " x " + std::to_string(header.height);
     const TextureData* const kept = textures.entries[t].data.get();
-    const double bytes = kept != nullptr ? double(kept->Bytes()) : ExpectedBytes(header, planned, texels);
+    const double bytes = kept != nullptr ? double(kept->bytes.size()) : ExpectedBytes(header, planned, texels);
     if (header.width > kMaxSide || header.height > kMaxSide || double(header.width) * header.height > kMaxTexels) {
       throw Error(ErrorCode::OutOfMemory,
                   "a texture of " + size + " texels needs " + BytesText(bytes) + ", and the limit is " +
@@ -108,7 +112,8 @@ void DecodeTextures(const Scene& scene, const std::vector<bool>& material_visibl
         std::map<FrameTextures::Entry*, TextureBuilder> builders;
         source.DecodeRows([&](const Image& rows, int height) {
           for_each_role([&](const PlannedTexture& planned, FrameTextures::Entry& entry) {
-            builders.try_emplace(&entry, rows, height, planned.role, planned.mips, texels).first->second.Add(rows);
+            builders.try_emplace(&entry, rows, height, planned.role, planned.mips, texels, planned.channels)
+                .first->second.Add(rows);
           });
         });
         if (builders.empty()) throw Error(ErrorCode::InvalidInput, "a picture without rows");
@@ -132,9 +137,9 @@ void DecodeTextures(const Scene& scene, const std::vector<bool>& material_visibl
     const FrameTextures::Entry& entry = textures.entries[t];
     if (needed[t] && entry.data != nullptr) {
       const TextureData& data = *entry.data;
-      stats.texture_bytes += data.Bytes();
+      stats.texture_bytes += data.bytes.size();
       stats.textures.push_back({plan.textures[t].image, plan.textures[t].role == TextureRole::Color, data.level_width[0],
-                                data.level_height[0], data.levels, data.wide ? 16 : 8, data.Bytes()});
+                                data.level_height[0], data.levels, data.stored, data.wide ? 16 : 8, data.bytes.size()});
     }
     if (!needed[t] || entry.problem.empty()) continue;
     const int image = plan.textures[t].image;

@@ -96,18 +96,19 @@ std::string FileWords(const ImageHeader& file) {
 }
 
 std::string TexturesText(const Explanation& e) {
-  std::vector<std::vector<std::string>> rows = {{"Textures", "role", "file", "levels", "bits", "kept"}};
+  std::vector<std::vector<std::string>> rows = {{"Textures", "role", "file", "levels", "channels", "bits", "kept"}};
   for (const ExplainedTexture& t : e.textures) {
     std::vector<std::string> row = {Printable(t.image), Joined(t.roles), FileWords(t.file)};
     if (t.kept) {
       row.insert(row.end(),
-                 {std::to_string(t.kept->levels), std::to_string(t.kept->bits), Bytes(double(t.kept->bytes))});
+                 {std::to_string(t.kept->levels), std::to_string(t.kept->channels), std::to_string(t.kept->bits),
+                  Bytes(double(t.kept->bytes))});
     } else {
-      row.insert(row.end(), {"", "", "not decoded: nothing visible reads it, or it is broken"});
+      row.insert(row.end(), {"", "", "", "not decoded: nothing visible reads it, or it is broken"});
     }
     rows.push_back(std::move(row));
   }
-  return Table(rows, "lllrrl");
+  return Table(rows, "lllrrrl");
 }
 
 std::string LightText(const Explanation& e) {
@@ -179,6 +180,7 @@ Json TexturesJson(const Explanation& e) {
                     {"file_bits", t.file.bits}, {"file_bytes", t.file.bytes}, {"decoded", t.kept.has_value()}};
     if (t.kept) {
       texture["levels"] = t.kept->levels;
+      texture["channels"] = t.kept->channels;
       texture["bits"] = t.kept->bits;
       texture["bytes"] = t.kept->bytes;
     }

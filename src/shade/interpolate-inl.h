@@ -23,9 +23,18 @@ struct Barycentric {
   T db_dx[3], db_dy[3];  // per pixel
 };
 
-// `base`: index of each lane's setup times its stride.
+// Where a packet's setups begin, when all its fragments are of one triangle: each number is then read once.
+struct OneSetup {
+  std::int32_t base;
+};
 template <class T>
-HWY_INLINE Barycentric<T> InterpolationWeights(const float* setups, IntOf<T> base, T x, T y) {
+HWY_INLINE Vec4<T> FetchVec4(const float* p, OneSetup setup) {
+  return {T(p[setup.base]), T(p[setup.base + 1]), T(p[setup.base + 2]), T(p[setup.base + 3])};
+}
+
+// `base`: index of each lane's setup times its stride, or OneSetup.
+template <class T, class Base>
+HWY_INLINE Barycentric<T> InterpolationWeights(const float* setups, Base base, T x, T y) {
   const float* planes = setups + SetupLayout::kPlanes;
   T a[3], b[3], e[3];
   for (int i = 0; i < 3; ++i) {
@@ -54,21 +63,20 @@ HWY_INLINE T Weigh(const T (&weights)[3], T v0, T v1, T v2) {
 }
 
 // Four numbers of each vertex, `stride` apart, at setups[base + first].
-template <class T>
-HWY_INLINE Vec4<T> InterpolateVec4(const float* setups, IntOf<T> base, const Barycentric<T>& w, int first, int stride) {
+template <class T, class Base>
+HWY_INLINE Vec4<T> InterpolateVec4(const float* setups, Base base, const Barycentric<T>& w, int first, int stride) {
   const Vec4<T> p = FetchVec4<T>(setups + first, base), q = FetchVec4<T>(setups + first + stride, base),
                 r = FetchVec4<T>(setups + first + 2 * stride, base);
   return {Weigh(w.b, p.x, q.x, r.x), Weigh(w.b, p.y, q.y, r.y), Weigh(w.b, p.z, q.z, r.z), Weigh(w.b, p.w, q.w, r.w)};
 }
 
-// The surface under fragment i of `task`, or those of all lanes from i on: only what its material reads.
-template <class T>
-HWY_INLINE Surface<T> InterpolateSurface(const ShadeTask& task, std::size_t i) {
+template <class T, class Base>
+HWY_INLINE void InterpolateFrom(const ShadeTask& task, Base base, T x, T y, Surface<T>& s) {
   const FrameMaterial& material = *task.material;
   const float* setups = task.setups;
-  const IntOf<T> base = LoadIntOf<T>(task.setup + i) * IntOf<T>(SetupLayout::kStride);
-  const Barycentric<T> w = InterpolationWeights(setups, base, Load<T>(task.x + i), Load<T>(task.y + i));
-  Surface<T> s{};
+  const Barycentric<T> w = InterpolationWeights(setups, base, x, y);
+  s.position = s.view = s.normal = s.interpolated_normal = Vec3<T>{};
+  s.tangent = Vec4<T>{};
   s.color = {T(1.0f), T(1.0f), T(1.0f), T(1.0f)};
   if (material.vertex_colors) s.color = InterpolateVec4(setups, base, w, SetupLayout::kColors, 4);
   if (material.Has(kLit)) {
@@ -91,6 +99,24 @@ HWY_INLINE Surface<T> InterpolateSurface(const ShadeTask& task, std::size_t i) {
     s.duv_dx[slot] = weigh(w.db_dx);
     s.duv_dy[slot] = weigh(w.db_dy);
   }
+  for (int slot = material.uv_slots; slot < kSurfaceUvSlots; ++slot) {
+    s.uv[slot] = s.duv_dx[slot] = s.duv_dy[slot] = Vec2<T>{};
+  }
+}
+
+// The surface under fragment i of `task`, or those of all lanes from i on: what its material reads; the rest is zero.
+template <class T>
+HWY_INLINE void InterpolateSurface(const ShadeTask& task, std::size_t i, Surface<T>& s) {
+  const T x = Load<T>(task.x + i), y = Load<T>(task.y + i);
+  const std::int32_t first = task.setup[i];
+  const IntOf<T> setup = LoadIntOf<T>(task.setup + i);
+  if (All(setup == IntOf<T>(first))) return InterpolateFrom(task, OneSetup{first * SetupLayout::kStride}, x, y, s);
+  InterpolateFrom(task, setup * IntOf<T>(SetupLayout::kStride), x, y, s);
+}
+template <class T>
+HWY_INLINE Surface<T> InterpolateSurface(const ShadeTask& task, std::size_t i) {
+  Surface<T> s;
+  InterpolateSurface(task, i, s);
   return s;
 }
 

@@ -23,31 +23,67 @@ class TextureReader {
   // `surface` must outlive the reader, and stay as it is until the next ReadAhead().
   HWY_INLINE explicit TextureReader(const Surface<T>& surface) : s_(surface) {}
 
-  template <int kChannels>
-  HWY_INLINE Vec4<T> Read(const TextureSlot& slot) {
-    Find(slot);
-    return ReadTexture<kChannels>(slot, taps_);
-  }
-
   // Finds the texels of the material's first texture, and asks for the memory of all that stand at the same places. It
   // takes long to arrive: call this for a new surface some work before it is shaded.
   HWY_INLINE void ReadAhead(const FrameMaterial& m) {
     made_for_ = nullptr;
-    const auto ahead = [&](MaterialFeature feature, const TextureSlot& slot) HWY_ATTR {
-      if (!m.Has(feature)) return;
-      if (made_for_ == nullptr) Find(slot);
-      if (HaveSameTaps(*made_for_, slot)) PrefetchTexels(*slot.data, taps_);
-    };
-    ahead(kBaseColorTexture, m.base_color_texture);
-    ahead(kMetallicRoughnessTexture, m.metallic_roughness_texture);
-    ahead(kOcclusionTexture, m.occlusion_texture);
-    ahead(kNormalTexture, m.normal_texture);
-    ahead(kEmissiveTexture, m.emissive_texture);
+    summed_count_ = 0;
+    const TexturesOf all(m);
+    for (int k = 0; k < all.count; ++k) {
+      if (k == 0) Find(*all.slots[0]);
+      if (HaveSameTaps(*made_for_, *all.slots[k])) PrefetchTexels(*all.slots[k]->data, taps_);
+    }
+  }
+
+  // Reads all textures of the material, those that stand at the same places together.
+  HWY_INLINE void ReadAll(const FrameMaterial& m) {
+    TexturesOf left(m);
+    for (summed_count_ = 0; left.count > 0;) {
+      Find(*left.slots[0]);
+      const TextureData* together[5];
+      int count = 0, others = 0;
+      for (int k = 0; k < left.count; ++k) {
+        const TextureSlot* slot = left.slots[k];
+        if (HaveSameTaps(*made_for_, *slot)) {
+          summed_[summed_count_ + count] = slot;
+          together[count++] = slot->data;
+        } else {
+          left.slots[others++] = slot;
+        }
+      }
+      SumTexels(count, together, taps_, sums_ + summed_count_);
+      summed_count_ += count;
+      left.count = others;
+    }
+  }
+
+  template <int kChannels>
+  HWY_INLINE Vec4<T> Read(const TextureSlot& slot) {
+    for (int k = 0; k < summed_count_; ++k) {
+      if (summed_[k] == &slot) return ChannelsOf<kChannels>(*slot.data, sums_[k]);
+    }
+    Find(slot);
+    return ReadTexture<kChannels>(slot, taps_);
   }
 
   HWY_INLINE bool IsOf(const Surface<T>& surface) const { return &surface == &s_; }
 
  private:
+  struct TexturesOf {
+    const TextureSlot* slots[5];
+    int count = 0;
+    HWY_INLINE explicit TexturesOf(const FrameMaterial& m) {
+      const auto add = [&](MaterialFeature feature, const TextureSlot& slot) {
+        if (m.Has(feature)) slots[count++] = &slot;
+      };
+      add(kBaseColorTexture, m.base_color_texture);
+      add(kMetallicRoughnessTexture, m.metallic_roughness_texture);
+      add(kOcclusionTexture, m.occlusion_texture);
+      add(kNormalTexture, m.normal_texture);
+      add(kEmissiveTexture, m.emissive_texture);
+    }
+  };
+
   HWY_INLINE void Find(const TextureSlot& slot) {
     if (made_for_ != nullptr && HaveSameTaps(*made_for_, slot)) return;
     const int k = slot.uv_slot;
@@ -58,6 +94,9 @@ class TextureReader {
   const Surface<T>& s_;
   const TextureSlot* made_for_ = nullptr;
   TextureTaps<T> taps_;
+  int summed_count_ = 0;
+  const TextureSlot* summed_[5];  // what ReadAll() has read
+  TexelSums<T> sums_[5];
 };
 
 // T is Float (lanes), float or double.
@@ -102,6 +141,7 @@ class MaterialView {
   HWY_INLINE MaterialInputs<T> Inputs(const Surface<T>& s) const {
     TextureReader<T> own(s);
     TextureReader<T>& textures = ReaderOf(s, own);
+    textures.ReadAll(m_);
     MaterialInputs<T> in{};
     const Vec4<T> base = BaseColor(s, textures);
     in.base_color = Xyz(base);

@@ -20,7 +20,9 @@ void MetallicRoughnessKernel(const ShadeTask& task) { ShadePackets(task, Metalli
 void AlphaKernel(const ShadeTask& task) {
   const MaterialView<Float> material(*task.material);
   for (std::size_t i = 0; i < task.count; i += LaneCount()) {
-    Store(material.Alpha(InterpolateSurface<Float>(task, i)), task.alpha + i);
+    Surface<Float> surface;
+    InterpolateSurface(task, i, surface);
+    Store(material.Alpha(surface), task.alpha + i);
   }
 }
 
@@ -53,7 +55,7 @@ void BackgroundKernel(const BackgroundTask& task) {
       }
     }
     const Vec3<Float> to_pixel{LoadFloat(direction[0]), LoadFloat(direction[1]), LoadFloat(direction[2])};
-    const Vec3<Float> seen = lighting.Background(NormalizeOr(to_pixel, Vec3<Float>{zero, zero, Float(-1.0f)}));
+    const Vec3<Float> seen = lighting.Background(to_pixel);
     const auto under = [&](Float light, Float back) HWY_ATTR { return Select(behind, light + back * share, light); };
     hn::StoreInterleaved4(under(r, seen.x).raw, under(g, seen.y).raw, under(b, seen.z).raw, under(a, one).raw,
                           FloatTag(), pixels);

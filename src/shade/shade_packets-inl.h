@@ -24,7 +24,7 @@ HWY_INLINE void ShadePackets(const ShadeTask& task, const Shader& shader) {
   Surface<Float> surfaces[2];  // of this packet and the next
   TextureReader<Float> readers[2] = {TextureReader<Float>(surfaces[0]), TextureReader<Float>(surfaces[1])};
   const auto prepare = [&](std::size_t first, int place) HWY_ATTR {
-    surfaces[place] = InterpolateSurface<Float>(task, first);
+    InterpolateSurface(task, first, surfaces[place]);
     readers[place].ReadAhead(*task.material);
   };
   if (task.count > 0) prepare(0, 0);

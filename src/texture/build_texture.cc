@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 #include "color/srgb.h"
@@ -35,7 +36,8 @@ void LayOut(TextureData& texture, int picture_width, int picture_height, bool mi
     texels += std::size_t(texture.level_pitch[l]) * std::size_t(height);
     if (!mips || (width == 1 && height == 1)) break;
   }
-  texture.words.resize(texels * (texture.wide ? 2 : 1));
+  texture.bytes.resize(texels * std::size_t(texture.TexelBytes()) + TextureData::kTexelSlack);
+  std::fill(texture.bytes.end() - TextureData::kTexelSlack, texture.bytes.end(), std::uint8_t{0});
 }
 
 [[noreturn]] void Refuse(const Image& rows, int height) {
@@ -44,33 +46,16 @@ void LayOut(TextureData& texture, int picture_width, int picture_height, bool mi
                                            std::to_string(rows.bytes.size()) + " bytes");
 }
 
-template <int kChannels, class Number, class Color, class Alpha>
-void Expand(const Number* p, int width, const Color& color, const Alpha& alpha, float* const* planes) {
-  constexpr int kColors = kChannels - (kChannels % 2 == 0 ? 1 : 0);
-  for (int x = 0; x < width; ++x, p += kChannels) {
-    for (int c = 0; c < kColors; ++c) planes[c][x] = color(p[c]);
-    if constexpr (kColors < kChannels) planes[kColors][x] = alpha(p[kColors]);
-  }
-}
-
-template <class Number, class Color, class Alpha>
-void Expand(int channels, const Number* p, int width, const Color& color, const Alpha& alpha, float* const* planes) {
-  switch (channels) {
-    case 1: return Expand<1>(p, width, color, alpha, planes);
-    case 2: return Expand<2>(p, width, color, alpha, planes);
-    case 3: return Expand<3>(p, width, color, alpha, planes);
-    default: return Expand<4>(p, width, color, alpha, planes);
-  }
-}
-
 }  // namespace
 
-TextureBuilder::TextureBuilder(const Image& form, int height, TextureRole role, bool mips, TexelBits bits)
+TextureBuilder::TextureBuilder(const Image& form, int height, TextureRole role, bool mips, TexelBits bits,
+                               int channels)
     : width_(form.width), channels_(form.channels), type_(form.type) {
   const bool sized = width_ >= 1 && height >= 1 && form.height >= 1 && channels_ >= 1 && channels_ <= 4;
   if (!sized || form.bytes.size() / (std::size_t(channels_) * SizeOf(type_)) != form.PixelCount()) Refuse(form, height);
   texture_.wide = bits == TexelBits::Mixed ? role == TextureRole::Color || type_ != ChannelType::U8
                                            : bits == TexelBits::Sixteen;
+  PlaceChannels(channels);
   LayOut(texture_, width_, height, mips);
   if (type_ != ChannelType::F32) {
     const int codes = type_ == ChannelType::U8 ? 256 : 65536;
@@ -81,13 +66,36 @@ TextureBuilder::TextureBuilder(const Image& form, int height, TextureRole role, 
     }
   }
   for (int l = 0; l < texture_.levels; ++l) {
-    rows_.emplace_back(3 * std::size_t(channels_) * (std::size_t(texture_.level_width[l]) + kRowSlack));
+    rows_.emplace_back(3 * std::size_t(texture_.stored) * (std::size_t(texture_.level_width[l]) + kRowSlack));
   }
 }
 
-float* TextureBuilder::Plane(int level, int y, int channel) {
+// Which channels of the picture are kept, and where.
+void TextureBuilder::PlaceChannels(int channels) {
+  const bool grey = channels_ < 3, has_alpha = channels_ % 2 == 0;
+  int place_of_channel[4] = {-1, -1, -1, -1};  // of the picture
+  for (int c = 0; c < 4; ++c) {
+    if ((channels >> c & 1) == 0 || (c == 3 && !has_alpha)) continue;
+    const int from = c == 3 ? channels_ - 1 : grey ? 0 : c;
+    if (place_of_channel[from] < 0) {
+      channel_of_[texture_.stored] = from;
+      place_of_channel[from] = texture_.stored++;
+    }
+    texture_.place_of[c] = place_of_channel[from];
+  }
+  if (texture_.stored == 0) channel_of_[texture_.stored++] = 0;  // alpha alone, of a picture without
+  const int size = texture_.wide ? 2 : 1;
+  for (int i = 0; i < 16; ++i) {
+    const int place = texture_.place_of[i / 4], texel = i / 2 % 2, byte = i % 2;
+    texture_.pair_bytes[i] = place < 0 || byte >= size
+                                 ? TextureData::kNoByte
+                                 : static_cast<std::uint8_t>((texel * texture_.stored + place) * size + byte);
+  }
+}
+
+float* TextureBuilder::Plane(int level, int y, int number) {
   return rows_[std::size_t(level)].data() +
-         std::size_t(y % 3 * channels_ + channel) * (std::size_t(texture_.level_width[level]) + kRowSlack);
+         std::size_t(y % 3 * texture_.stored + number) * (std::size_t(texture_.level_width[level]) + kRowSlack);
 }
 
 void TextureBuilder::Add(const Image& rows) {
@@ -99,35 +107,42 @@ void TextureBuilder::Add(const Image& rows) {
   }
   for (int y = 0; y < rows.height; ++y) {
     const std::size_t first = std::size_t(y) * row_numbers;
-    float* planes[4];
-    for (int c = 0; c < channels_; ++c) planes[c] = Plane(0, next_row_, c);
-    const auto color = [this](auto code) { return color_[code]; };
-    const auto linear = [this](auto code) { return linear_[code]; };
-    const auto clamped = [](float value) { return value > 0.0f ? std::min(value, 1.0f) : 0.0f; };
     switch (type_) {
-      case ChannelType::U8:
-        Expand(channels_, rows.As<std::uint8_t>() + first, width_, color, linear, planes);
-        break;
-      case ChannelType::U16:
-        Expand(channels_, rows.As<std::uint16_t>() + first, width_, color, linear, planes);
-        break;
-      case ChannelType::F32:
-        Expand(channels_, rows.As<float>() + first, width_, clamped, clamped, planes);
-        break;
+      case ChannelType::U8: Expand(rows.As<std::uint8_t>() + first); break;
+      case ChannelType::U16: Expand(rows.As<std::uint16_t>() + first); break;
+      case ChannelType::F32: Expand(rows.As<float>() + first); break;
     }
     FinishRow(0, next_row_++);
+  }
+}
+
+// The numbers of a picture's row that are kept, in linear light, channel by channel.
+template <class Number>
+void TextureBuilder::Expand(const Number* row) {
+  for (int k = 0; k < texture_.stored; ++k) {
+    const int from = channel_of_[k];
+    const bool alpha = channels_ % 2 == 0 && from == channels_ - 1;
+    const std::vector<float>& codes = alpha ? linear_ : color_;
+    const auto number = [&codes](Number code) {
+      if constexpr (std::is_same_v<Number, float>) {
+        return code > 0.0f ? std::min(code, 1.0f) : 0.0f;
+      } else {
+        return codes[code];
+      }
+    };
+    const Number* p = row + from;
+    float* plane = Plane(0, next_row_, k);
+    for (int x = 0; x < width_; ++x, p += channels_) plane[x] = number(*p);
   }
 }
 
 // Stores a row whose planes are filled, and makes the row of the next level that it completes: of two rows, three where
 // a height is odd.
 void TextureBuilder::FinishRow(int level, int y) {
-  const bool grey = channels_ < 3, alpha = channels_ % 2 == 0;
-  StoreRow({{Plane(level, y, 0), Plane(level, y, grey ? 0 : 1), Plane(level, y, grey ? 0 : 2),
-             alpha ? Plane(level, y, channels_ - 1) : nullptr},
-            texture_.level_width[level],
-            texture_.wide,
-            texture_.words.data() + texture_.WordOf(level, y)});
+  StoreRowTask store{{}, texture_.stored, texture_.level_width[level], texture_.wide,
+                     texture_.bytes.data() + texture_.ByteOf(level, y)};
+  for (int k = 0; k < texture_.stored; ++k) store.planes[k] = Plane(level, y, k);
+  StoreRow(store);
   if (level + 1 == texture_.levels) return;
   const int h = texture_.level_height[level], half = Half(h);
   const int taps = h == 1 ? 1 : h == 2 * half ? 2 : 3;
@@ -143,9 +158,9 @@ void TextureBuilder::FinishRow(int level, int y) {
       {0.5f, 0.5f},
       {static_cast<float>(half - i) / total, static_cast<float>(half) / total, static_cast<float>(i + 1) / total}};
   std::copy_n(weights[taps - 1], 3, task.weights);
-  for (int c = 0; c < channels_; ++c) {
-    for (int t = 0; t < taps; ++t) task.rows[t] = Plane(level, 2 * i + t, c);
-    task.out = Plane(level + 1, i, c);
+  for (int k = 0; k < texture_.stored; ++k) {
+    for (int t = 0; t < taps; ++t) task.rows[t] = Plane(level, 2 * i + t, k);
+    task.out = Plane(level + 1, i, k);
     HalveRow(task);
   }
   FinishRow(level + 1, i);
@@ -166,8 +181,8 @@ std::size_t TexelCount(int width, int height, bool mips) {
   }
 }
 
-TextureData BuildTexture(const Image& image, TextureRole role, bool mips, TexelBits bits) {
-  TextureBuilder builder(image, image.height, role, mips, bits);
+TextureData BuildTexture(const Image& image, TextureRole role, bool mips, TexelBits bits, int channels) {
+  TextureBuilder builder(image, image.height, role, mips, bits, channels);
   builder.Add(image);
   return builder.Finish();
 }

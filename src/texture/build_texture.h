@@ -11,7 +11,7 @@ namespace facet {
 class TextureBuilder {
  public:
   // `form` is some of the picture's rows, or all; `height` is the whole picture's. The rest as BuildTexture.
-  TextureBuilder(const Image& form, int height, TextureRole role, bool mips, TexelBits bits);
+  TextureBuilder(const Image& form, int height, TextureRole role, bool mips, TexelBits bits, int channels);
 
   // The next rows, top to bottom. Throws Error(InvalidInput) where they are too many, or not of the picture's form.
   void Add(const Image& rows);
@@ -20,10 +20,14 @@ class TextureBuilder {
   TextureData Finish();
 
  private:
-  float* Plane(int level, int y, int channel);
+  void PlaceChannels(int channels);
+  template <class Number>
+  void Expand(const Number* row);
+  float* Plane(int level, int y, int number);
   void FinishRow(int level, int y);
 
-  int width_, channels_;
+  int width_, channels_;     // of the picture
+  int channel_of_[4] = {};   // of the picture, for each number of a texel
   ChannelType type_;
   TextureData texture_;
   int next_row_ = 0;

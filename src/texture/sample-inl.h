@@ -8,6 +8,8 @@
 #define FACET_TEXTURE_SAMPLE_INL_H_
 #endif
 
+#include <type_traits>
+
 #include "facet/shader/elementary-inl.h"
 #include "facet/shader/lookup-inl.h"
 #include "facet/shader/vec-inl.h"
@@ -16,9 +18,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace facet {
 namespace HWY_NAMESPACE {
-
-// Which channels a caller wants: bits 1, 2, 4, 8 for R, G, B, A. The others stay zero and cost nothing.
-enum ChannelMask : int { kR = 1, kG = 2, kB = 4, kA = 8, kRgb = 7, kRgba = 15 };
 
 // The texels i and i + 1 on one axis, after wrapping, and how far the position lies towards the second: at a clamped or
 // mirrored edge, which repeats its texel, not at all.
@@ -61,11 +60,40 @@ HWY_INLINE AxisTaps<T> MakeTaps(Wrap wrap, T position, IntOf<T> size, MaskOf<T> 
   return taps;
 }
 
-// Where the texels of one bilinear footprint stand, and how far the position lies towards the second of each axis.
+// Lanes and float filter in integers: 8 or 16 bits of a texel times a weight of 14 bits, summed without rounding, which
+// processors do four times as fast as the same in floats; GPUs' weights have 8 bits. Other T, such as double, have
+// weights without rounding.
+template <class T>
+inline constexpr bool kWholeWeights = std::is_same_v<T, Float> || std::is_same_v<T, float>;
+// What all weights of a sample sum to.
+template <class T>
+inline constexpr float kWeightSum = kWholeWeights<T> ? 16384.0f : 1.0f;
+template <class T>
+HWY_INLINE T RoundWeight(T weight) {
+  if constexpr (kWholeWeights<T>) {
+    return Floor(weight + T(0.5f));
+  } else {
+    return weight;
+  }
+}
+
+// The weights of two neighbouring texels: whole ones as 16-bit numbers of one word, the left one low.
+template <class T, bool kWhole = kWholeWeights<T>>
+struct WeightPair {
+  IndexList<T> of_lane;
+  HWY_INLINE void Set(T left, T right) { of_lane = TruncateToInt(left) | ShiftLeft<16>(TruncateToInt(right)); }
+};
+template <class T>
+struct WeightPair<T, false> {
+  T left, right;
+  HWY_INLINE void Set(T l, T r) { left = l, right = r; }
+};
+
+// Where the texels of one bilinear footprint stand, and how much each counts.
 template <class T>
 struct BilinearTap {
   IndexList<T> top, bottom;  // numbers of the left texels in TextureData; the right ones follow them
-  T along_u, along_v;
+  WeightPair<T> top_weights, bottom_weights;
 };
 
 // The mip level of each lane.
@@ -80,71 +108,19 @@ HWY_INLINE LevelPlace<T> PlaceOfLevel(const TextureData& data, IntOf<T> level) {
           FetchOf16(data.level_pitch, level)};
 }
 
+// `share`: how much it counts in all, of kWeightSum; a RoundWeight(). Its texels' weights sum to that, without error.
 template <class T>
-HWY_INLINE BilinearTap<T> MakeBilinearTap(const Sampler& sampler, Vec2<T> uv, const LevelPlace<T>& level,
-                                          MaskOf<T> linear) {
+HWY_INLINE void MakeBilinearTap(const Sampler& sampler, Vec2<T> uv, const LevelPlace<T>& level, MaskOf<T> linear,
+                                T share, BilinearTap<T>& tap) {
   const AxisTaps<T> u = MakeTaps(sampler.wrap_u, uv.x, level.width, linear);
   const AxisTaps<T> v = MakeTaps(sampler.wrap_v, uv.y, level.height, linear);
   const IntOf<T> left = level.offset + u.first;
-  BilinearTap<T> tap;
   tap.top = left + v.first * level.pitch;
   tap.bottom = left + v.second * level.pitch;
-  tap.along_u = u.fraction;
-  tap.along_v = v.fraction;
-  return tap;
-}
-
-// The channels of a texel: `low` is its first word, `high` the second where there are two.
-template <int kChannels, bool kWide, class T>
-HWY_INLINE Vec4<T> Channels(IntOf<T> low, IntOf<T> high) {
-  Vec4<T> c{};
-  if constexpr (kWide) {
-    const T scale(1.0f / 65535.0f);
-    if constexpr ((kChannels & kR) != 0) c.x = FromInt<T>(low & IntOf<T>(0xFFFF)) * scale;
-    if constexpr ((kChannels & kG) != 0) c.y = FromInt<T>(ShiftRightLogical<16>(low)) * scale;
-    if constexpr ((kChannels & kB) != 0) c.z = FromInt<T>(high & IntOf<T>(0xFFFF)) * scale;
-    if constexpr ((kChannels & kA) != 0) c.w = FromInt<T>(ShiftRightLogical<16>(high)) * scale;
-  } else {
-    const T scale(1.0f / 255.0f);
-    if constexpr ((kChannels & kR) != 0) c.x = FromInt<T>(low & IntOf<T>(0xFF)) * scale;
-    if constexpr ((kChannels & kG) != 0) c.y = FromInt<T>(ShiftRightLogical<8>(low) & IntOf<T>(0xFF)) * scale;
-    if constexpr ((kChannels & kB) != 0) c.z = FromInt<T>(ShiftRightLogical<16>(low) & IntOf<T>(0xFF)) * scale;
-    if constexpr ((kChannels & kA) != 0) c.w = FromInt<T>(ShiftRightLogical<24>(low)) * scale;
-  }
-  return c;
-}
-
-// Two texels of a row.
-template <int kChannels, bool kWide, class T>
-HWY_INLINE void FetchNeighbours(const std::int32_t* words, const IndexList<T>& texel, Vec4<T>& left, Vec4<T>& right) {
-  if constexpr (kWide) {
-    IntOf<T> w[4];
-    FetchFour<2, T>(words, texel, w);
-    left = Channels<kChannels, true, T>(w[0], w[1]);
-    right = Channels<kChannels, true, T>(w[2], w[3]);
-  } else {
-    IntOf<T> w[2];
-    FetchTwo<1, T>(words, texel, w);
-    left = Channels<kChannels, false, T>(w[0], w[0]);
-    right = Channels<kChannels, false, T>(w[1], w[1]);
-  }
-}
-
-template <int kChannels, bool kWide, class T>
-HWY_INLINE Vec4<T> ReadBilinear(const std::int32_t* words, const BilinearTap<T>& tap) {
-  Vec4<T> c00, c10, c01, c11;
-  FetchNeighbours<kChannels, kWide, T>(words, tap.top, c00, c10);
-  FetchNeighbours<kChannels, kWide, T>(words, tap.bottom, c01, c11);
-  const auto mix = [&](T a, T b, T c, T d) HWY_ATTR {
-    const T top = a + (b - a) * tap.along_u, bottom = c + (d - c) * tap.along_u;
-    return top + (bottom - top) * tap.along_v;
-  };
-  Vec4<T> result{};
-  if constexpr ((kChannels & kR) != 0) result.x = mix(c00.x, c10.x, c01.x, c11.x);
-  if constexpr ((kChannels & kG) != 0) result.y = mix(c00.y, c10.y, c01.y, c11.y);
-  if constexpr ((kChannels & kB) != 0) result.z = mix(c00.z, c10.z, c01.z, c11.z);
-  if constexpr ((kChannels & kA) != 0) result.w = mix(c00.w, c10.w, c01.w, c11.w);
-  return result;
+  const T right_share = RoundWeight(share * u.fraction), left_share = share - right_share;
+  const T bottom_right = RoundWeight(right_share * v.fraction), bottom_left = RoundWeight(left_share * v.fraction);
+  tap.top_weights.Set(left_share - bottom_left, right_share - bottom_right);
+  tap.bottom_weights.Set(bottom_left, bottom_right);
 }
 
 // The ellipse that a pixel covers in a texture: the axes of the linear map from pixels to texels of level 0, by its
@@ -196,12 +172,12 @@ HWY_INLINE Footprint<T> MakeFootprint(const TextureSlot& slot, Vec2<T> duv_dx, V
 // All places that a sample reads: what textures of one size, sampled alike, have in common.
 template <class T>
 struct TextureTaps {
-  static constexpr int kMax = 16;
-  int count;        // taps along the major axis, of the lane that has most
+  static constexpr int kMax = 16;  // along the major axis
+  int count;             // of `taps`, of the lane that has most
+  IndexList<T> of_lane;  // how many of them each lane has
+  // Those along the major axis, of the finer level; where two levels are read, each is followed by that of the coarser.
   bool two_levels;
-  T lane_count;     // taps of each lane
-  T blend;          // from the finer level to the coarser
-  BilinearTap<T> fine[kMax], coarse[kMax];
+  BilinearTap<T> taps[2 * kMax];
 };
 
 // Whether samples of both slots at the same texture coordinates read the same places.
@@ -229,10 +205,12 @@ HWY_INLINE void MakeTextureTaps(const TextureSlot& slot, Vec2<T> uv_in, Vec2<T> 
   const Sampler& sampler = slot.sampler;
   const TextureData& data = *slot.data;
   const MaskOf<T> yes(true), no(false);
+  const T all(kWeightSum<T>);
   const auto read_level_0 = [&](MaskOf<T> linear) HWY_ATTR {
     out.count = 1;
+    out.of_lane = IntOf<T>(1);
     out.two_levels = false;
-    out.fine[0] = MakeBilinearTap(sampler, uv, PlaceOfLevel<T>(data, IntOf<T>(0)), linear);
+    MakeBilinearTap(sampler, uv, PlaceOfLevel<T>(data, IntOf<T>(0)), linear, all, out.taps[0]);
   };
   if (sampler.magnification == sampler.minification && data.levels == 1) {
     return read_level_0(sampler.magnification == Filter::Linear ? yes : no);
@@ -247,28 +225,41 @@ HWY_INLINE void MakeTextureTaps(const TextureSlot& slot, Vec2<T> uv_in, Vec2<T> 
   if (sampler.mip == MipFilter::None) return read_level_0(linear);
   const bool nearest_level = sampler.mip == MipFilter::Nearest;
   const T base = Floor(nearest_level ? lod + T(0.5f) : lod);
-  out.blend = nearest_level ? T(0.0f) : lod - base;
-  out.two_levels = Any(out.blend > T(0.0f));
-  out.lane_count = footprint.taps;
+  const T blend = nearest_level ? T(0.0f) : lod - base;  // from the finer level to the coarser
+  out.two_levels = Any(blend > T(0.0f));
   const LevelPlace<T> fine = PlaceOfLevel<T>(data, TruncateToInt(base));
   const LevelPlace<T> coarse = PlaceOfLevel<T>(data, TruncateToInt(Min(base + T(1.0f), max_level)));
-  for (out.count = 0; out.count < TextureTaps<T>::kMax; ++out.count) {
-    const int i = out.count;
-    const T tap(static_cast<float>(i));
+  const T of_coarse = RoundWeight(all * blend), of_fine = all - of_coarse;
+  const T inverse_count = T(1.0f) / footprint.taps;
+  // Of the first i taps; each tap's share is the difference of two, so that they sum to the whole.
+  const auto share_before = [&](T whole, T i) HWY_ATTR { return RoundWeight(whole * Min(i * inverse_count, T(1.0f))); };
+  const int levels = out.two_levels ? 2 : 1;
+  T fine_before(0.0f), coarse_before(0.0f);
+  int taps = 0;
+  for (; taps < TextureTaps<T>::kMax; ++taps) {
+    const T tap(static_cast<float>(taps));
     if (!Any(tap < footprint.taps)) break;
-    const T along = (tap + T(0.5f)) / footprint.taps - T(0.5f);
+    const T along = (tap + T(0.5f)) * inverse_count - T(0.5f);
     const Vec2<T> at{uv.x + footprint.major.x * along, uv.y + footprint.major.y * along};
-    out.fine[i] = MakeBilinearTap(sampler, at, fine, linear);
-    if (out.two_levels) out.coarse[i] = MakeBilinearTap(sampler, at, coarse, linear);
+    const T fine_after = share_before(of_fine, tap + T(1.0f));
+    MakeBilinearTap(sampler, at, fine, linear, fine_after - fine_before, out.taps[levels * taps]);
+    fine_before = fine_after;
+    if (!out.two_levels) continue;
+    const T coarse_after = share_before(of_coarse, tap + T(1.0f));
+    MakeBilinearTap(sampler, at, coarse, linear, coarse_after - coarse_before, out.taps[levels * taps + 1]);
+    coarse_before = coarse_after;
   }
+  out.count = levels * taps;
+  out.of_lane = TruncateToInt(footprint.taps) * IntOf<T>(levels);
 }
 
 // Asks for the memory of texels that will be read soon, for one lane in `kStep`. (Inlined always: GCC drops calls of
 // functions that do nothing else.)
 template <int kStep, class T>
-HWY_INLINE void PrefetchRow(const std::int32_t* words, std::ptrdiff_t words_each, const IndexList<T>& texel) {
+HWY_INLINE void PrefetchRow(const TextureData& data, const IndexList<T>& texel) {
+  const std::ptrdiff_t texel_bytes = data.TexelBytes();
   for (int lane = 0; lane < IndexList<T>::kLanes; lane += kStep) {
-    __builtin_prefetch(words + texel.of_lane[lane] * words_each);
+    __builtin_prefetch(data.bytes.data() + texel.of_lane[lane] * texel_bytes);
   }
 }
 
@@ -276,36 +267,160 @@ HWY_INLINE void PrefetchRow(const std::int32_t* words, std::ptrdiff_t words_each
 // level every fourth, names nearly as many cache lines as all, and what is a lane's lower row is often another's upper.
 template <class T>
 HWY_INLINE void PrefetchTexels(const TextureData& data, const TextureTaps<T>& taps) {
-  const std::int32_t* words = data.words.data();
-  const std::ptrdiff_t words_each = data.wide ? 2 : 1;
-  for (int i = 0; i < taps.count; ++i) {
-    PrefetchRow<2, T>(words, words_each, taps.fine[i].top);
-    if (taps.two_levels) PrefetchRow<4, T>(words, words_each, taps.coarse[i].top);
+  for (int i = 0; i < taps.count;) {
+    PrefetchRow<2, T>(data, taps.taps[i++].top);
+    if (taps.two_levels) PrefetchRow<4, T>(data, taps.taps[i++].top);
   }
 }
 
-template <int kChannels, bool kWide, class T>
-HWY_INLINE Vec4<T> ReadTaps(const std::int32_t* words, const TextureTaps<T>& taps) {
-  const auto trilinear = [&](int i) HWY_ATTR {
-    const Vec4<T> near = ReadBilinear<kChannels, kWide>(words, taps.fine[i]);
-    if (!taps.two_levels) return near;
-    const Vec4<T> far = ReadBilinear<kChannels, kWide>(words, taps.coarse[i]);
-    return near * (T(1.0f) - taps.blend) + far * taps.blend;
-  };
-  if (taps.count == 1) return trilinear(0);
-  Vec4<T> sum{};
-  for (int i = 0; i < taps.count; ++i) {
-    const MaskOf<T> active = T(static_cast<float>(i)) < taps.lane_count;
-    sum = sum + trilinear(i) * Select(active, T(1.0f), T(0.0f));
+// The numbers of R, G, B and A of two neighbouring texels at p, as `pair_bytes` places them.
+struct ScalarPairs {
+  const std::uint8_t* p;
+  const TextureData& data;
+  HWY_INLINE std::int32_t Byte(int i) const {
+    const std::uint8_t from = data.pair_bytes[i];
+    return from == TextureData::kNoByte ? 0 : p[from];
   }
-  return sum * (T(1.0f) / taps.lane_count);
+  HWY_INLINE std::int32_t Number(int i) const {
+    return static_cast<std::int16_t>(static_cast<std::uint16_t>(Byte(2 * i) | Byte(2 * i + 1) << 8));
+  }
+  HWY_INLINE std::int32_t Left(int channel) const { return Number(2 * channel); }
+  HWY_INLINE std::int32_t Right(int channel) const { return Number(2 * channel + 1); }
+};
+
+// Sums of numbers times weights, of one texture and all lanes.
+template <class T, bool kWhole = kWholeWeights<T>>
+struct TexelSums {
+  alignas(64) std::int32_t of_lane[4 * IndexList<T>::kLanes];  // R, G, B and A of each
+};
+template <class T>
+struct TexelSums<T, false> {
+  T of_channel[4];
+};
+
+// Sums the texels at `taps` of kCount textures that all have those taps.
+template <int kCount, class T>
+HWY_INLINE void SumTexels(const TextureData* const* textures, const TextureTaps<T>& taps, TexelSums<T>* sums) {
+  const auto bytes_of = [&](int k, std::int32_t texel) {
+    return textures[k]->bytes.data() + std::ptrdiff_t(texel) * textures[k]->TexelBytes();
+  };
+  if constexpr (!kWholeWeights<T>) {
+    for (int k = 0; k < kCount; ++k) {
+      for (T& sum : sums[k].of_channel) sum = T(0.0f);
+      for (int i = 0; i < taps.count; ++i) {
+        const auto add = [&](const IndexList<T>& texel, const WeightPair<T>& weights) {
+          const ScalarPairs pairs{bytes_of(k, texel.of_lane[0]), *textures[k]};
+          for (int c = 0; c < 4; ++c) {
+            T& sum = sums[k].of_channel[c];
+            sum = sum + (weights.left * FromInt<T>(pairs.Left(c)) + weights.right * FromInt<T>(pairs.Right(c)));
+          }
+        };
+        add(taps.taps[i].top, taps.taps[i].top_weights);
+        add(taps.taps[i].bottom, taps.taps[i].bottom_weights);
+      }
+    }
+    return;
+  } else {
+#if HWY_TARGET == HWY_SCALAR
+    for (int k = 0; k < kCount; ++k) {
+      std::int32_t* of_lane = sums[k].of_lane;
+      for (int c = 0; c < 4; ++c) of_lane[c] = 0;
+      for (int i = 0; i < taps.of_lane.of_lane[0]; ++i) {
+        const auto add = [&](const IndexList<T>& texel, const WeightPair<T>& weights) {
+          const ScalarPairs pairs{bytes_of(k, texel.of_lane[0]), *textures[k]};
+          const std::int32_t w = weights.of_lane.of_lane[0];
+          for (int c = 0; c < 4; ++c) of_lane[c] += (w & 0xFFFF) * pairs.Left(c) + (w >> 16) * pairs.Right(c);
+        };
+        add(taps.taps[i].top, taps.taps[i].top_weights);
+        add(taps.taps[i].bottom, taps.taps[i].bottom_weights);
+      }
+    }
+#else
+    // A texel pair is one vector, whatever the target's width: R, G, B and A side by side.
+    const hn::Full128<std::uint8_t> d8;
+    const hn::Full128<std::int16_t> d16;
+    const hn::Full128<std::int32_t> d32;
+    using Sum = hn::Vec<hn::Full128<std::int32_t>>;
+    const std::uint8_t* bytes[kCount];
+    std::ptrdiff_t texel_bytes[kCount];
+    for (int k = 0; k < kCount; ++k) {
+      bytes[k] = textures[k]->bytes.data();
+      texel_bytes[k] = textures[k]->TexelBytes();
+    }
+    for (int lane = 0; lane < IndexList<T>::kLanes; ++lane) {
+      Sum sum[kCount], more[kCount];  // `more`: Arm's sums of every second product
+      for (int k = 0; k < kCount; ++k) sum[k] = more[k] = hn::Zero(d32);
+      const int count = taps.of_lane.of_lane[lane];
+      for (int i = 0; i < count; ++i) {
+        const BilinearTap<T>& tap = taps.taps[i];
+        const std::ptrdiff_t top = tap.top.of_lane[lane], bottom = tap.bottom.of_lane[lane];
+        const auto top_weights = hn::BitCast(d16, hn::Set(d32, tap.top_weights.of_lane.of_lane[lane]));
+        const auto bottom_weights = hn::BitCast(d16, hn::Set(d32, tap.bottom_weights.of_lane.of_lane[lane]));
+        for (int k = 0; k < kCount; ++k) {
+          const auto pair_bytes = hn::LoadU(d8, textures[k]->pair_bytes);
+          const auto pairs = [&](std::ptrdiff_t texel) HWY_ATTR {
+            const auto row = hn::LoadU(d8, bytes[k] + texel * texel_bytes[k]);
+            return hn::BitCast(d16, hn::TableLookupBytesOr0(row, pair_bytes));
+          };
+          sum[k] = hn::ReorderWidenMulAccumulate(d32, pairs(top), top_weights, sum[k], more[k]);
+          sum[k] = hn::ReorderWidenMulAccumulate(d32, pairs(bottom), bottom_weights, sum[k], more[k]);
+        }
+      }
+      for (int k = 0; k < kCount; ++k) {
+        hn::Store(hn::RearrangeToOddPlusEven(sum[k], more[k]), d32, sums[k].of_lane + 4 * lane);
+      }
+    }
+#endif
+  }
+}
+template <class T>
+HWY_INLINE void SumTexels(int count, const TextureData* const* textures, const TextureTaps<T>& taps,
+                          TexelSums<T>* sums) {
+  switch (count) {
+    case 1: return SumTexels<1, T>(textures, taps, sums);
+    case 2: return SumTexels<2, T>(textures, taps, sums);
+    case 3: return SumTexels<3, T>(textures, taps, sums);
+    case 4: return SumTexels<4, T>(textures, taps, sums);
+    default: return SumTexels<5, T>(textures, taps, sums);
+  }
+}
+
+// What a texture shows where `sums` were made. Of `kChannels`, a ChannelMask; the others are zero.
+template <int kChannels, class T>
+HWY_INLINE Vec4<T> ChannelsOf(const TextureData& data, const TexelSums<T>& sums) {
+  // From sums of numbers times weights to [0, 1]. Wide numbers are kept less 32768.
+  const T scale((data.wide ? 1.0f / 65535.0f : 1.0f / 255.0f) / kWeightSum<T>);
+  Vec4<T> c{};
+  if constexpr (kWholeWeights<T>) {
+    IntOf<T> r, g, b, a;
+    if constexpr (std::is_same_v<T, Float>) {
+      hn::LoadInterleaved4(IntTag(), sums.of_lane, r.raw, g.raw, b.raw, a.raw);
+    } else {
+      r = sums.of_lane[0], g = sums.of_lane[1], b = sums.of_lane[2], a = sums.of_lane[3];
+    }
+    const IntOf<T> middle(data.wide ? 32768 * static_cast<std::int32_t>(kWeightSum<T>) : 0);
+    const auto number = [&](IntOf<T> sum) HWY_ATTR { return FromInt<T>(sum + middle) * scale; };
+    if constexpr ((kChannels & kR) != 0) c.x = number(r);
+    if constexpr ((kChannels & kG) != 0) c.y = number(g);
+    if constexpr ((kChannels & kB) != 0) c.z = number(b);
+    if constexpr ((kChannels & kA) != 0) c.w = number(a);
+  } else {
+    const T middle(data.wide ? 32768.0f : 0.0f);
+    const auto number = [&](int channel) { return (sums.of_channel[channel] + middle) * scale; };
+    c = {number(0), number(1), number(2), number(3)};
+  }
+  if constexpr ((kChannels & kA) != 0) {
+    if (data.place_of[3] < 0) c.w = T(1.0f);
+  }
+  return c;
 }
 
 // What `slot` shows at places that were made for it, or for one that has the same.
 template <int kChannels, class T>
 HWY_INLINE Vec4<T> ReadTexture(const TextureSlot& slot, const TextureTaps<T>& taps) {
-  const std::int32_t* words = slot.data->words.data();
-  return slot.data->wide ? ReadTaps<kChannels, true>(words, taps) : ReadTaps<kChannels, false>(words, taps);
+  TexelSums<T> sums;
+  SumTexels<1, T>(&slot.data, taps, &sums);
+  return ChannelsOf<kChannels>(*slot.data, sums);
 }
 
 // Samples the texture of `slot` at interpolated coordinates `uv` with their derivatives over one pixel.

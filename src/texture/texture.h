@@ -19,23 +19,37 @@ enum class TextureRole : std::uint8_t {
   Data,   // normals, roughness, metalness, occlusion: as in the file
 };
 
-// One image with its mip levels: texel (x, y) of level l is number level_offset[l] + y * level_pitch[l] + x. A row ends
-// with its first texel once more, so that the two texels of a row that bilinear filtering needs always are neighbours,
-// and one load gets both. (Loads, not cache lines, are what reading textures waits for: squares of 4 x 4 texels, with
-// four loads a footprint, are slower. The extra texel also keeps rows from lying powers of two apart.)
+// Which of R, G, B and A: one bit each.
+enum ChannelMask : int { kR = 1, kG = 2, kB = 4, kA = 8, kRgb = 7, kRgba = 15 };
+
+// One image with its mip levels, no more of its channels than are read: texel (x, y) of level l is number
+// level_offset[l] + y * level_pitch[l] + x, of TexelBytes() bytes. A row ends with its first texel once more, so that
+// the two texels of a row that bilinear filtering needs always are neighbours, and one load gets both. (Squares of 4 x 4
+// texels, with four loads a footprint, are slower. The extra texel also keeps rows from lying powers of two apart.)
 struct TextureData {
-  bool wide = false;                // two words a texel (16 bits a channel, RG then BA) instead of one (8 bits, RGBA)
+  bool wide = false;  // a number takes 16 bits, and is kept as signed: less 32768; else 8
+  int stored = 0;     // numbers of a texel
+  // Which number of a texel each of R, G, B and A is; those of a grey picture share one. -1: it is not kept. Alpha
+  // that is not kept is 1.
+  int place_of[4] = {-1, -1, -1, -1};
   int levels = 0;
   std::int32_t level_offset[kMaxTextureLevels] = {};  // texels
   std::int32_t level_pitch[kMaxTextureLevels] = {};   // texels from row to row
   std::int32_t level_width[kMaxTextureLevels] = {};
   std::int32_t level_height[kMaxTextureLevels] = {};
-  PageVector<std::int32_t> words;  // little-endian channels: R in the low bits
+  // Of the bytes from a texel on, those that make up 16-bit numbers R of it, R of the next, G of it, G of the next, and
+  // so on; kNoByte: 0. As byte shuffles of x86 and Arm want it.
+  std::uint8_t pair_bytes[16] = {};
+  PageVector<std::uint8_t> bytes;  // little-endian numbers, and kTexelSlack more
 
-  std::size_t Bytes() const { return words.size() * sizeof(words[0]); }
-  // Where row y of a level begins in `words`.
-  std::size_t WordOf(int level, int y) const {
-    return (std::size_t(level_offset[level]) + std::size_t(y) * std::size_t(level_pitch[level])) * (wide ? 2 : 1);
+  static constexpr std::uint8_t kNoByte = 0x80;
+  static constexpr std::size_t kTexelSlack = 16;  // that one load may read beyond the last texel
+
+  int TexelBytes() const { return stored * (wide ? 2 : 1); }
+  // Where row y of a level begins in `bytes`.
+  std::size_t ByteOf(int level, int y) const {
+    return (std::size_t(level_offset[level]) + std::size_t(y) * std::size_t(level_pitch[level])) *
+           std::size_t(TexelBytes());
   }
 };
 
@@ -43,10 +57,12 @@ struct TextureData {
 std::size_t TexelCount(int width, int height, bool mips);
 
 // Builds a texture from a decoded picture. Each level halves the one above, rounding down; a texel is the mean, in
-// linear light, of the area it covers, also where a size is odd. `mips`: false keeps level 0 alone.
+// linear light, of the area it covers, also where a size is odd. `mips`: false keeps level 0 alone. `channels`: which
+// will be read.
 // Throws Error: OutOfMemory for pictures beyond 32768 texels a side or 2^27 texels, InvalidInput for pictures without
 // pixels, of other than 1 to 4 channels, or whose bytes do not fit their size.
-TextureData BuildTexture(const Image& image, TextureRole role, bool mips, TexelBits bits = TexelBits::Mixed);
+TextureData BuildTexture(const Image& image, TextureRole role, bool mips, TexelBits bits = TexelBits::Mixed,
+                         int channels = kRgba);
 
 // A use of a texture by a material.
 struct TextureSlot {

@@ -3,6 +3,7 @@
 #include "hwy/foreach_target.h"
 
 #include <algorithm>
+#include <cstring>
 
 #include "facet/shader/dispatch.h"
 #include "facet/shader/lane-inl.h"
@@ -12,32 +13,54 @@ HWY_BEFORE_NAMESPACE();
 namespace facet {
 namespace HWY_NAMESPACE {
 
-template <bool kWide>
-HWY_INLINE void StoreRowOf(const StoreRowTask& task) {
-  constexpr std::int32_t kWords = kWide ? 2 : 1;  // a texel
-  const Float scale(kWide ? 65535.0f : 255.0f), half(0.5f);
-  const Int full(kWide ? 65535 : 255);
-  const auto lanes = static_cast<std::int32_t>(LaneCount());
-  for (std::int32_t x = 0; x < task.width; x += lanes) {
-    const auto quantised = [&](const float* plane) HWY_ATTR {
-      return plane != nullptr ? TruncateToInt(LoadFloat(plane + x) * scale + half) : full;
-    };
-    const Int r = quantised(task.planes[0]), g = quantised(task.planes[1]), b = quantised(task.planes[2]),
-              a = quantised(task.planes[3]);
-    const std::int32_t count = std::min(lanes, task.width - x);
-    std::int32_t last[kWords * kMaxLanes];
-    std::int32_t* words = count == lanes ? task.words + x * kWords : last;
-    if constexpr (kWide) {
-      hn::StoreInterleaved2((r | ShiftLeft<16>(g)).raw, (b | ShiftLeft<16>(a)).raw, IntTag(), words);
-    } else {
-      Store(r | ShiftLeft<8>(g) | ShiftLeft<16>(b) | ShiftLeft<24>(a), words);
-    }
-    if (words == last) std::copy_n(last, count * kWords, task.words + x * kWords);
+// Numbers of `D` side by side: as many as a texel has.
+template <int kStored, class D, class V>
+HWY_INLINE void StoreTexels(D d, const V* v, hn::TFromD<D>* out) {
+  if constexpr (kStored == 1) {
+    hn::StoreU(v[0], d, out);
+  } else if constexpr (kStored == 2) {
+    hn::StoreInterleaved2(v[0], v[1], d, out);
+  } else if constexpr (kStored == 3) {
+    hn::StoreInterleaved3(v[0], v[1], v[2], d, out);
+  } else {
+    hn::StoreInterleaved4(v[0], v[1], v[2], v[3], d, out);
   }
-  std::copy_n(task.words, kWords, task.words + task.width * kWords);
 }
 
-void StoreRow(const StoreRowTask& task) { task.wide ? StoreRowOf<true>(task) : StoreRowOf<false>(task); }
+template <int kStored, class Number>
+HWY_INLINE void StoreRowOf(const StoreRowTask& task) {
+  constexpr bool kWide = sizeof(Number) == 2;
+  constexpr std::size_t kTexel = kStored * sizeof(Number);
+  const hn::Rebind<Number, IntTag> d;
+  const Float scale(kWide ? 65535.0f : 255.0f), half(0.5f);
+  const Int middle(kWide ? 32768 : 0);
+  const std::size_t lanes = LaneCount(), width = std::size_t(task.width);
+  for (std::size_t x = 0; x < width; x += lanes) {
+    hn::Vec<decltype(d)> numbers[kStored];
+    for (int k = 0; k < kStored; ++k) {
+      const Int code = TruncateToInt(LoadFloat(task.planes[k] + x) * scale + half);
+      numbers[k] = hn::DemoteTo(d, (code - middle).raw);
+    }
+    Number texels[kStored * kMaxLanes];
+    StoreTexels<kStored>(d, numbers, texels);
+    std::memcpy(task.bytes + x * kTexel, texels, std::min(lanes, width - x) * kTexel);
+  }
+  std::memcpy(task.bytes + width * kTexel, task.bytes, kTexel);
+}
+
+template <class Number>
+HWY_INLINE void StoreRowOf(const StoreRowTask& task) {
+  switch (task.stored) {
+    case 1: return StoreRowOf<1, Number>(task);
+    case 2: return StoreRowOf<2, Number>(task);
+    case 3: return StoreRowOf<3, Number>(task);
+    default: return StoreRowOf<4, Number>(task);
+  }
+}
+
+void StoreRow(const StoreRowTask& task) {
+  task.wide ? StoreRowOf<std::int16_t>(task) : StoreRowOf<std::uint8_t>(task);
+}
 
 // `kTaps`: texels of a row that lie under one of the next.
 template <int kTaps>

@@ -11,10 +11,11 @@ inline constexpr std::size_t kRowSlack = 64;
 
 // A row of texels in [0, 1], rounded to 8 or 16 bits, and its first texel once more at the end (see TextureData).
 struct StoreRowTask {
-  const float* planes[4];  // R, G, B, A; null: all are 1
+  const float* planes[4];  // of each number of a texel
+  int stored;              // how many
   std::int32_t width;
   bool wide;
-  std::int32_t* words;  // of the row's first texel
+  std::uint8_t* bytes;  // of the row's first texel
 };
 void StoreRow(const StoreRowTask& task);
 

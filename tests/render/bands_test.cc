@@ -171,28 +171,27 @@ Scene WithTexture(int width, int height, int bits, bool color) {
 
 TEST(MemoryLimit, TexturesAreRefusedBeforeTheyAreDecoded) {
   RenderSettings settings = Settings(16, 16, 1, Perspective(1.0, {0, 0, 3}));
-  settings.memory_limit = 10 << 20;
+  settings.memory_limit = 5 << 19;
   struct Case {
     int bits;
     bool color;
     const char* bytes;
   };
-  // With all levels a third more than 2^20 texels of 4 bytes, or of 8 where they are colours or finer.
-  for (const Case& c : {Case{8, true, "10.7 MiB"}, Case{16, false, "10.7 MiB"}}) {
+  // With all levels a third more than 2^20 texels of two channels of a byte (metalness and roughness), or of two bytes
+  // where they are finer, or of three of two bytes (colour).
+  for (const Case& c : {Case{8, true, "8.0 MiB"}, Case{16, false, "5.3 MiB"}, Case{8, false, "2.7 MiB"}}) {
     const std::string refusal = Refusal(WithTexture(1024, 1024, c.bits, c.color), settings);
     EXPECT_TRUE(Has(refusal, std::string(c.bytes) + " for textures (the largest: hollow.png, 1024 x 1024, "))
         << refusal;
-    EXPECT_TRUE(Has(refusal, "4.0 KiB for a film of 16 x 16 pixels, and the memory limit is 10.0 MiB")) << refusal;
+    EXPECT_TRUE(Has(refusal, "4.0 KiB for a film of 16 x 16 pixels, and the memory limit is 2.5 MiB")) << refusal;
   }
-  settings.memory_limit = 5 << 20;
-  EXPECT_TRUE(Has(Refusal(WithTexture(1024, 1024, 8, false), settings), "5.3 MiB for textures"));
 }
 
 TEST(MemoryLimit, TexturesBeyondAllLimitsAreRefusedByTheirSize) {
   const RenderSettings settings = Settings(16, 16, 1, Perspective(1.0, {0, 0, 3}));
   const std::string refusal = Refusal(WithTexture(100000, 100000, 8, true), settings);
   EXPECT_TRUE(Has(refusal,
-                  "hollow.png: a texture of 100000 x 100000 texels needs 99.3 GiB, and the limit is 32768 a "
+                  "hollow.png: a texture of 100000 x 100000 texels needs 74.5 GiB, and the limit is 32768 a "
                   "side and 1.3 GiB in all"))
       << refusal;
 }

@@ -100,14 +100,18 @@ TEST(Explain, NamesAndCountsWhatTheFrameUses) {
   EXPECT_EQ(e.textures[0].kept->height, 4);
   EXPECT_EQ(e.textures[0].kept->levels, 4);
   EXPECT_EQ(e.textures[0].kept->bits, 16);
+  EXPECT_EQ(e.textures[0].kept->channels, 3) << "an opaque material reads no alpha";
   EXPECT_EQ(e.textures[1].kept->bits, 8);
   EXPECT_FALSE(e.textures[3].kept) << "nothing visible reads it";
 
   // Memory is exact: what goes when a texture is read by nobody any more.
   const auto bytes = [&](std::size_t index) { return std::int64_t(e.textures[index].kept->bytes); };
   EXPECT_EQ(CostOf(e, "base-color-texture")->bytes, bytes(0));
-  EXPECT_EQ(CostOf(e, "occlusion")->bytes, 0) << "metallic-roughness reads it still";
-  EXPECT_EQ(CostOf(e, "metallic-roughness-texture")->bytes, 0);
+  // One channel of one picture for occlusion, two for metalness and roughness.
+  EXPECT_EQ(e.textures[1].kept->channels, 3);
+  const std::int64_t of_channel = (bytes(1) - 16) / 3;
+  EXPECT_EQ(CostOf(e, "occlusion")->bytes, of_channel);
+  EXPECT_EQ(CostOf(e, "metallic-roughness-texture")->bytes, 2 * of_channel);
   EXPECT_EQ(CostOf(e, "normal-texture")->bytes, bytes(2) + std::int64_t(e.first.pose_bytes));
   EXPECT_GT(e.first.pose_bytes, 0u);
   EXPECT_EQ(CostOf(e, "environment-light")->bytes, 0) << "the background shows it still";

@@ -70,11 +70,12 @@ struct Bounds {
 // Some tens of roundings of 6e-8, and in the environment maps coordinates of up to 256 texels, right to 2e-5 of a
 // texel.
 constexpr Bounds kUntextured = {1e-5, 4};
-// Textures too: several hundred texels from edge to edge, as different from their neighbours as they can be.
-constexpr Bounds kTextured = {1e-5, 64};
+// Textures too: the weights of texels are rounded to 1/16384, some ten times a sample, and texels are as different from
+// their neighbours as they can be.
+constexpr Bounds kTextured = {5e-5, 512};
 // The narrowest highlight, alpha = 0.002, falls off by up to 2 / alpha = 1000 times the angle: directions that are
-// right to 2e-7 give it to 2e-4, and where it is in the picture it is what the squares add up to.
-constexpr Bounds kHighlight = {5e-4, 4};
+// right to 2e-7 give it to 2e-4, and where it is in the picture it is what the squares add up to. It has textures, too.
+constexpr Bounds kHighlight = {5e-4, 64};
 
 void ExpectRounding(const Films& films, const std::string& name, const Bounds& bounds) {
   const Rounding r = Measure(films);

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <bit>
 #include <cmath>
 #include <random>
 
@@ -140,9 +141,9 @@ TEST(BuildTexture, WithoutMipsOnlyLevelZeroIsKept) {
   const TextureData with = BuildTexture(image, TextureRole::Data, true),
                     without = BuildTexture(image, TextureRole::Data, false);
   EXPECT_EQ(without.levels, 1);
-  EXPECT_EQ(without.Bytes(), 21u * 12u * 4u);
-  EXPECT_LT(with.Bytes(), 2 * without.Bytes());
-  for (std::size_t i = 0; i < without.words.size(); ++i) ASSERT_EQ(without.words[i], with.words[i]);
+  EXPECT_EQ(without.bytes.size(), 21u * 12u * 4u + TextureData::kTexelSlack);
+  EXPECT_LT(with.bytes.size(), 2 * without.bytes.size());
+  for (std::size_t i = 0; i < 21u * 12u * 4u; ++i) ASSERT_EQ(without.bytes[i], with.bytes[i]);
 }
 
 TEST(BuildTexture, RowsEndWithTheirFirstTexel) {
@@ -174,7 +175,7 @@ TEST(BuildTexture, BitsAreWhatIsAskedFor) {
   for (const TextureRole role : {TextureRole::Color, TextureRole::Data}) {
     const TextureData eight = BuildTexture(image, role, true, TexelBits::Eight),
                       sixteen = BuildTexture(image, role, true, TexelBits::Sixteen);
-    EXPECT_EQ(sixteen.Bytes(), 2 * eight.Bytes());
+    EXPECT_EQ(sixteen.TexelBytes(), 2 * eight.TexelBytes());
     for (int level = 0; level < eight.levels; ++level) {
       for (int y = 0; y < eight.level_height[level]; ++y) {
         for (int x = 0; x < eight.level_width[level]; ++x) {
@@ -185,7 +186,37 @@ TEST(BuildTexture, BitsAreWhatIsAskedFor) {
       }
     }
     const TextureData mixed = BuildTexture(image, role, true, TexelBits::Mixed);
-    EXPECT_EQ(mixed.words, role == TextureRole::Color ? sixteen.words : eight.words);
+    EXPECT_EQ(mixed.bytes, role == TextureRole::Color ? sixteen.bytes : eight.bytes);
+  }
+}
+
+// Of all pictures and all that can be asked of them: what is kept is what it is in the whole texture, and takes no more
+// room than that.
+TEST(BuildTexture, ChannelsThatAreNotReadAreNotKept) {
+  for (int picture_channels = 1; picture_channels <= 4; ++picture_channels) {
+    const Image image = RandomImage(21, 14, picture_channels, ChannelType::U8, 12);
+    const bool grey = picture_channels < 3, has_alpha = picture_channels % 2 == 0;
+    for (const TextureRole role : {TextureRole::Color, TextureRole::Data}) {
+      const TextureData whole = BuildTexture(image, role, true);
+      EXPECT_EQ(whole.stored, picture_channels);
+      for (int channels = 1; channels <= kRgba; ++channels) {
+        const TextureData part = BuildTexture(image, role, true, TexelBits::Mixed, channels);
+        const int colors = std::popcount(unsigned(channels) & kRgb);
+        const int numbers = (grey ? std::min(colors, 1) : colors) + ((channels & kA) != 0 && has_alpha ? 1 : 0);
+        ASSERT_EQ(part.stored, std::max(numbers, 1)) << picture_channels << " " << channels;
+        for (int level = 0; level < part.levels; ++level) {
+          for (int y = 0; y < part.level_height[level]; ++y) {
+            for (int x = 0; x < part.level_width[level]; ++x) {
+              const auto expected = ReadTexel(whole, level, x, y), kept = ReadTexel(part, level, x, y);
+              for (std::size_t c = 0; c < 4; ++c) {
+                if ((channels >> c & 1) == 0) continue;
+                ASSERT_EQ(kept[c], expected[c]) << picture_channels << " " << channels << " level " << level;
+              }
+            }
+          }
+        }
+      }
+    }
   }
 }
 

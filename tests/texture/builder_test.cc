@@ -40,11 +40,12 @@ TEST(TextureBuilder, PiecesMakeTheWhole) {
           const Image image = Noise(width, height, channels, type);
           const TextureData whole = BuildTexture(image, role, true, TexelBits::Mixed);
           for (int piece : {1, 7, 64}) {
-            TextureBuilder builder(Rows(image, 0, std::min(piece, height)), height, role, true, TexelBits::Mixed);
+            TextureBuilder builder(Rows(image, 0, std::min(piece, height)), height, role, true, TexelBits::Mixed,
+                                   kRgba);
             for (int y = 0; y < height; y += piece) builder.Add(Rows(image, y, std::min(piece, height - y)));
             const TextureData texture = builder.Finish();
             ASSERT_EQ(texture.levels, whole.levels);
-            ASSERT_TRUE(texture.words == whole.words) << width << " " << height << " " << channels << " " << piece;
+            ASSERT_TRUE(texture.bytes == whole.bytes) << width << " " << height << " " << channels << " " << piece;
           }
         }
       }
@@ -54,7 +55,7 @@ TEST(TextureBuilder, PiecesMakeTheWhole) {
 
 TEST(TextureBuilder, MissingSurplusAndForeignRowsAreErrors) {
   const Image image = Noise(8, 6, 3, ChannelType::U8);
-  TextureBuilder builder(Rows(image, 0, 4), 6, TextureRole::Data, true, TexelBits::Mixed);
+  TextureBuilder builder(Rows(image, 0, 4), 6, TextureRole::Data, true, TexelBits::Mixed, kRgba);
   builder.Add(Rows(image, 0, 4));
   EXPECT_THROW(builder.Finish(), Error);
   EXPECT_THROW(builder.Add(image), Error);
@@ -64,7 +65,7 @@ TEST(TextureBuilder, MissingSurplusAndForeignRowsAreErrors) {
   EXPECT_EQ(builder.Finish().levels, 4);
   Image torn = image;
   torn.bytes.resize(10);
-  EXPECT_THROW(TextureBuilder(torn, 6, TextureRole::Data, true, TexelBits::Mixed), Error);
+  EXPECT_THROW(TextureBuilder(torn, 6, TextureRole::Data, true, TexelBits::Mixed, kRgba), Error);
 }
 
 }  // namespace

@@ -8,12 +8,13 @@
 namespace facet {
 
 inline std::array<double, 4> ReadTexel(const TextureData& t, int level, int x, int y) {
-  const std::size_t texel =
-      std::size_t(t.level_offset[level]) + std::size_t(y) * std::size_t(t.level_pitch[level]) + std::size_t(x);
-  std::array<double, 4> c{};
+  const std::size_t size = t.wide ? 2 : 1;
+  const std::size_t first = t.ByteOf(level, y) + std::size_t(x * t.TexelBytes());
+  std::array<double, 4> c{0.0, 0.0, 0.0, 1.0};
   for (std::size_t k = 0; k < 4; ++k) {
-    const auto word = static_cast<std::uint32_t>(t.words.at(t.wide ? 2 * texel + k / 2 : texel));
-    c[k] = t.wide ? (word >> (k % 2 * 16) & 0xFFFFu) / 65535.0 : (word >> (k * 8) & 0xFFu) / 255.0;
+    if (t.place_of[k] < 0) continue;
+    const std::uint8_t* p = &t.bytes.at(first + std::size_t(t.place_of[k]) * size);
+    c[k] = t.wide ? (((p[0] | p[1] << 8) + 32768) & 0xFFFF) / 65535.0 : p[0] / 255.0;
   }
   return c;
 }

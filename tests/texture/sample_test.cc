@@ -159,6 +159,10 @@ Rgba ReferenceLevel(const TextureData& t, const Sampler& sampler, int level, dou
 // How close a nearest lookup is to the border of two texels, in texels.
 double BorderDistance(double u, int size) { return std::fabs(u * size - std::nearbyint(u * size)); }
 
+// Weights are split in two along u and each of these along v, rounded to 1/16384; no texel differs from another by more
+// than 1. With a second level, and the split between the two, it is less than 2.5 times that.
+constexpr double kWeightError = 1.5 / 16384;
+
 TEST(SampleTexture, NearestAndLinearOfAllWraps) {
   const int sizes[][2] = {{8, 8}, {16, 4}, {7, 5}, {1, 1}, {1, 9}, {13, 1}, {2, 3}};
   Uniform random(2);
@@ -195,7 +199,7 @@ TEST(SampleTexture, NearestAndLinearOfAllWraps) {
             }
             const Rgba expected = ReferenceLevel(data, slot.sampler, 0, u, v, filter == Filter::Linear);
             for (std::size_t k = 0; k < 4; ++k) {
-              ASSERT_NEAR(answers[i].color[k], expected[k], filter == Filter::Nearest ? 1e-6 : 4e-6)
+              ASSERT_NEAR(answers[i].color[k], expected[k], filter == Filter::Nearest ? 1e-6 : kWeightError + 4e-6)
                   << size[0] << " x " << size[1] << " wraps " << int(wrap_u) << int(wrap_v) << " filter " << int(filter)
                   << " at " << u << ", " << v;
             }
@@ -398,7 +402,35 @@ TEST(SampleTexture, MagnifiedIsBilinearInLevelZero) {
   const std::vector<Answer> answers = Sample(slot, queries);
   for (std::size_t i = 0; i < queries.size(); ++i) {
     const Rgba expected = ReferenceLevel(data, slot.sampler, 0, queries[i].u, queries[i].v, true);
-    for (std::size_t k = 0; k < 4; ++k) ASSERT_NEAR(answers[i].color[k], expected[k], 4e-6) << i;
+    for (std::size_t k = 0; k < 4; ++k) ASSERT_NEAR(answers[i].color[k], expected[k], kWeightError + 4e-6) << i;
+  }
+}
+
+// However many texels are weighed, the weights sum to one without error: a constant stays what it is.
+TEST(SampleTexture, ConstantsAreExact) {
+  Uniform random(16);
+  for (const TexelBits bits : {TexelBits::Eight, TexelBits::Sixteen}) {
+    for (int code = 0; code < 256; code += 3) {
+      const Image image = Picture8(24, 16, [&](int, int, int c) { return (c % 2 == 0 ? code : 255 - code) / 255.0; });
+      const TextureData data = BuildTexture(image, TextureRole::Data, true, bits);
+      TextureSlot slot;
+      slot.data = &data;
+      slot.max_anisotropy = 16.0f;
+      std::vector<Query> queries;
+      for (int i = 0; i < 64; ++i) {
+        const auto number = [&] { return float(random(-1, 1) * std::exp2(random(-8, 2))); };
+        queries.push_back({float(random(-3, 3)), float(random(-3, 3)), number(), number(), number(), number()});
+      }
+      for (const Answer& answer : Sample(slot, queries)) {
+        for (std::size_t c = 0; c < 4; ++c) {
+          const int expected = c % 2 == 0 ? code : 255 - code;
+          ASSERT_NEAR(answer.color[c], expected / 255.0, 1.2e-7) << code;  // a unit in the last place of a float
+          if (expected % 255 == 0) {
+            ASSERT_EQ(answer.color[c], expected / 255);
+          }
+        }
+      }
+    }
   }
 }
 
@@ -440,7 +472,7 @@ TEST(SampleTexture, MipFiltersChooseTheirLevels) {
           const Rgba a = ReferenceLevel(data, slot.sampler, fine, q.u, q.v, linear);
           const Rgba b = ReferenceLevel(data, slot.sampler, std::min(fine + 1, data.levels - 1), q.u, q.v, linear);
           for (std::size_t k = 0; k < 4; ++k) {
-            ASSERT_NEAR(answers[i].color[k], a[k] * (1 - blend) + b[k] * blend, 1e-5)
+            ASSERT_NEAR(answers[i].color[k], a[k] * (1 - blend) + b[k] * blend, 2.5 * kWeightError)
                 << int(mip) << int(magnification) << int(minification) << " lod " << lods[i];
           }
         }

@@ -27,12 +27,36 @@ TEST(SharedTaps, ServeTexturesThatAreSampledAlike) {
   lanes::MakeTextureTaps(a, uv, dx, dy, taps);
   EXPECT_GT(taps.count, 1);
   EXPECT_TRUE(taps.two_levels);
-  const lanes::Vec4<float> shared = lanes::ReadTexture<lanes::kRgba>(b, taps);
-  const lanes::Vec4<float> own = lanes::SampleTexture<lanes::kRgba>(b, uv, dx, dy);
+  const lanes::Vec4<float> shared = lanes::ReadTexture<kRgba>(b, taps);
+  const lanes::Vec4<float> own = lanes::SampleTexture<kRgba>(b, uv, dx, dy);
   EXPECT_EQ(shared.x, own.x);
   EXPECT_EQ(shared.y, own.y);
   EXPECT_EQ(shared.z, own.z);
   EXPECT_EQ(shared.w, own.w);
+}
+
+TEST(SharedTaps, TexturesThatAreReadTogetherAreThoseThatAreReadAlone) {
+  const TextureData textures[5] = {
+      BuildTexture(Pattern(64, 32, 5), TextureRole::Data, true),
+      BuildTexture(Pattern(64, 32, 6), TextureRole::Color, true),
+      BuildTexture(Pattern(64, 32, 7), TextureRole::Data, true, TexelBits::Mixed, kR),
+      BuildTexture(Pattern(64, 32, 8), TextureRole::Data, true, TexelBits::Mixed, kG | kB),
+      BuildTexture(Pattern(64, 32, 9), TextureRole::Color, true, TexelBits::Mixed, kRgb)};
+  const TextureData* together[5];
+  for (int k = 0; k < 5; ++k) together[k] = &textures[k];
+  TextureSlot slot;
+  slot.data = together[0];
+  lanes::TextureTaps<float> taps;
+  lanes::MakeTextureTaps<float>(slot, {0.3f, 0.8f}, {0.2f, 0.01f}, {-0.01f, 0.1f}, taps);
+  for (int count = 1; count <= 5; ++count) {
+    lanes::TexelSums<float> all[5];
+    lanes::SumTexels(count, together, taps, all);
+    for (int k = 0; k < count; ++k) {
+      lanes::TexelSums<float> alone;
+      lanes::SumTexels(1, together + k, taps, &alone);
+      for (int c = 0; c < 4; ++c) EXPECT_EQ(all[k].of_lane[c], alone.of_lane[c]) << count << " " << k << " " << c;
+    }
+  }
 }
 
 TEST(SharedTaps, AreRefusedWhereAnythingDiffersThatPlacesTexels) {

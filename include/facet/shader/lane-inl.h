@@ -95,8 +95,13 @@ HWY_INLINE Mask operator>=(Float a, Float b) { return hn::Ge(a.raw, b.raw); }
 HWY_INLINE Mask operator==(Float a, Float b) { return hn::Eq(a.raw, b.raw); }
 
 HWY_INLINE Float Select(Mask m, Float a, Float b) { return hn::IfThenElse(m.raw, a.raw, b.raw); }
+#if HWY_ARCH_X86 && HWY_TARGET != HWY_SCALAR  // x86's instructions are these selections
+HWY_INLINE Float Min(Float a, Float b) { return hn::Min(a.raw, b.raw); }
+HWY_INLINE Float Max(Float a, Float b) { return hn::Max(a.raw, b.raw); }
+#else
 HWY_INLINE Float Min(Float a, Float b) { return Select(a < b, a, b); }
 HWY_INLINE Float Max(Float a, Float b) { return Select(a > b, a, b); }
+#endif
 HWY_INLINE Float Clamp(Float x, Float low, Float high) { return Min(Max(x, low), high); }
 HWY_INLINE Float Abs(Float a) { return hn::Abs(a.raw); }
 HWY_INLINE Float Sqrt(Float a) { return hn::Sqrt(a.raw); }

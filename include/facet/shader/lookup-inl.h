@@ -206,6 +206,33 @@ HWY_INLINE Vec4<T> FetchVec4(const float* p, IntOf<T> index) {
   }
 }
 
+// (w[0] p[i[0]] + w[1] p[i[1]]) + (w[2] p[i[2]] + w[3] p[i[3]]), of three numbers side by side in memory, of four that
+// can be read: bilinear reading. Each lane's is made for itself, its numbers side by side, and all are transposed at the
+// end, which takes a fourth of the shuffles of transposing what is read.
+template <class T>
+HWY_INLINE Vec3<T> WeighFour(const float* p, const IntOf<T> (&i)[4], const T (&w)[4]) {
+#if HWY_TARGET != HWY_SCALAR
+  if constexpr (std::is_same_v<T, Float>) {
+    const hn::Full128<float> d;
+    alignas(64) std::int32_t at[4][kMaxLanes];
+    alignas(64) float weight[4][kMaxLanes], sums[4 * kMaxLanes];
+    for (int k = 0; k < 4; ++k) Store(i[k], at[k]), Store(w[k], weight[k]);
+    const std::size_t lanes = LaneCount();
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      const auto term = [&](int k) HWY_ATTR {
+        return hn::Mul(hn::LoadU(d, p + at[k][lane]), hn::Set(d, weight[k][lane]));
+      };
+      hn::Store(hn::Add(hn::Add(term(0), term(1)), hn::Add(term(2), term(3))), d, sums + 4 * lane);
+    }
+    Float x, y, z, unused;
+    hn::LoadInterleaved4(FloatTag(), sums, x.raw, y.raw, z.raw, unused.raw);
+    return {x, y, z};
+  }
+#endif
+  const auto term = [&](int k) HWY_ATTR { return Xyz(FetchVec4<T>(p, i[k])) * w[k]; };
+  return (term(0) + term(1)) + (term(2) + term(3));
+}
+
 // Where x in [0, last] lies between two samples: floor (at most last - 1) and fraction.
 template <class T>
 struct TablePosition {

@@ -1,4 +1,4 @@
-// Vec2, Vec3 and Vec4 of any arithmetic type: lanes, float or double.
+// Vec2, Vec3 and Vec4 of any arithmetic type: lanes, float or double. Vec3<T>{} is zero; without braces it is not set.
 
 #if defined(FACET_SHADER_VEC_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef FACET_SHADER_VEC_INL_H_
@@ -15,17 +15,17 @@ namespace HWY_NAMESPACE {
 
 template <class T>
 struct Vec2 {
-  T x{}, y{};
+  T x, y;
 };
 
 template <class T>
 struct Vec3 {
-  T x{}, y{}, z{};
+  T x, y, z;
 };
 
 template <class T>
 struct Vec4 {
-  T x{}, y{}, z{}, w{};
+  T x, y, z, w;
 };
 
 template <class T> HWY_INLINE Vec2<T> operator+(Vec2<T> a, Vec2<T> b) { return {a.x + b.x, a.y + b.y}; }
@@ -52,14 +52,15 @@ template <class T> HWY_INLINE Vec3<T> Mix(Vec3<T> a, Vec3<T> b, T t) { return a 
 template <class T> HWY_INLINE T Mix(T a, T b, T t) { return a * (T(1.0f) - t) + b * t; }
 template <class T> HWY_INLINE T MaxComponent(Vec3<T> a) { return Max(a.x, Max(a.y, a.z)); }
 
-// a / |a|, or `fallback` where a is zero, not finite, or too long or short for its square to be a normal number after
-// scaling by its largest component.
+// a / |a|, or `fallback` where a is zero or not finite. Scaled by its largest component first, it can be squared however
+// long or short it is; scaled by a power of two before, the reciprocal of that component is finite.
 template <class T> HWY_INLINE Vec3<T> NormalizeOr(Vec3<T> a, Vec3<T> fallback) {
-  const T scale = MaxComponent(Vec3<T>{Abs(a.x), Abs(a.y), Abs(a.z)});
-  const Vec3<T> b = a / scale;
+  const T largest = MaxComponent(Vec3<T>{Abs(a.x), Abs(a.y), Abs(a.z)});
+  const T up = Select(largest < T(1e-30f), T(0x1p100f), T(1.0f));
+  const Vec3<T> b = (a * up) * (T(1.0f) / (largest * up));
   const T length = Sqrt(Dot(b, b));
-  const auto good = (length >= T(1.0f)) & IsFinite(length);
-  return Select(good, b / length, fallback);
+  const auto good = (length >= T(0.5f)) & IsFinite(length);
+  return Select(good, b * (T(1.0f) / length), fallback);
 }
 
 template <class T> HWY_INLINE Vec4<T> operator+(Vec4<T> a, Vec4<T> b) {
