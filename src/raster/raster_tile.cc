@@ -23,7 +23,7 @@ struct BlockEdges {
 struct TriangleEdges {
   std::int64_t a[3], b[3], c[3];  // a * x + b * y + c, x and y in fx8 from the picture's origin; fill rule included
 
-  explicit TriangleEdges(const TriangleRecord& r) {
+  HWY_INLINE explicit TriangleEdges(const TriangleRecord& r) {
     for (int i = 0; i < 3; ++i) {
       const int j = i == 2 ? 0 : i + 1;
       a[i] = r.y_fx8[i] - r.y_fx8[j];
@@ -39,7 +39,7 @@ struct TriangleEdges {
   // How a block lies: outside one edge, cut by some, or inside all. An edge that the whole block is inside of becomes
   // 0 >= 0.
   enum class Overlap { None, Part, Whole };
-  Overlap InBlock(int x_px, int y_px, BlockEdges& out) const {
+  HWY_INLINE Overlap InBlock(int x_px, int y_px, BlockEdges& out) const {
     constexpr std::int64_t kReach = kBlockSize * kSampleGrid - 1;
     Overlap overlap = Overlap::Whole;
     for (int i = 0; i < 3; ++i) {
@@ -65,7 +65,7 @@ struct BlockRange {
   int x0, y0, x1, y1;        // blocks within the tile, inclusive
   int first_row, last_row;   // pixels within the tile
 
-  BlockRange(const TriangleRecord& r, const TileBuffers& tile) {
+  HWY_INLINE BlockRange(const TriangleRecord& r, const TileBuffers& tile) {
     const auto [min_x, max_x] = std::minmax({r.x_fx8[0], r.x_fx8[1], r.x_fx8[2]});
     const auto [min_y, max_y] = std::minmax({r.y_fx8[0], r.y_fx8[1], r.y_fx8[2]});
     const int last_column_px = std::min((max_x >> kSubpixelBits) - tile.x0, tile.width - 1);
