@@ -234,28 +234,19 @@ class TileWorker final : public RecordTable {
     const FragmentList& list = fragments.list;
     std::int32_t last_number = kNoRecord, last_setup = 0;
     ++batch_number_;
-    setup_count_ = 0;
+    set_up_.clear();
     const std::uint32_t* batch = batch_.data();
     const std::int32_t* numbers = list.record.data();
     std::int32_t* setup_of = setup_of_.data();
-    constexpr std::size_t kAhead = 8;  // fragments
-    const auto ahead = [&](std::size_t i, auto prefetch) {
-      if (i >= n) return;
-      const std::int32_t number = numbers[batch[i]];
-      if (number == numbers[batch[i - 1]]) return;
-      const TriangleRecord& record = Record(number);
-      prefetch(in_.geometry.drawables[record.drawable], record);
-    };
     for (std::size_t i = 0; i < n; ++i) {
-      ahead(i + 2 * kAhead, PrefetchIndices);
-      ahead(i + kAhead, PrefetchVertices);
       const std::int32_t number = numbers[batch[i]];
       if (number != last_number) {
         last_number = number;
-        last_setup = SetupFor(material, number, anchor_x, anchor_y);
+        last_setup = SetupFor(number);
       }
       setup_of[i] = last_setup;
     }
+    SetUpTriangles(material, anchor_x, anchor_y);
     const std::uint16_t* pixels = list.pixel.data();
     const std::uint8_t* samples = list.samples.data();
     float *x = x_.data(), *y = y_.data();
@@ -302,17 +293,36 @@ class TileWorker final : public RecordTable {
     }
   }
 
-  // One per triangle and batch.
-  std::int32_t SetupFor(const FrameMaterial& material, std::int32_t number, int anchor_x, int anchor_y) {
+  // The number of a triangle's setup: there is one per triangle and batch.
+  std::int32_t SetupFor(std::int32_t number) {
     SetupOfRecord& known = setup_of_record_[std::size_t(number)];
     if (known.batch != batch_number_) {
-      known = {batch_number_, static_cast<std::int32_t>(setup_count_++)};
-      setups_.resize(std::max(setups_.size(), setup_count_ * SetupLayout::kStride));
-      const TriangleRecord& record = Record(number);
-      SetUpTriangle(in_.view, in_.geometry.drawables[record.drawable], material, record, anchor_x, anchor_y,
-                    setups_.data() + std::size_t(known.setup) * SetupLayout::kStride);
+      known = {batch_number_, static_cast<std::int32_t>(set_up_.size())};
+      set_up_.push_back(number);
     }
     return known.setup;
+  }
+
+  // Those that SetupFor() has counted.
+  void SetUpTriangles(const FrameMaterial& material, int anchor_x, int anchor_y) {
+    constexpr std::size_t kAhead = 8;  // triangles
+    const std::size_t n = set_up_.size();
+    setups_.resize(std::max(setups_.size(), n * SetupLayout::kStride));
+    const auto drawable_of = [&](const TriangleRecord& r) -> const FrameDrawable& {
+      return in_.geometry.drawables[r.drawable];
+    };
+    const auto ahead = [&](std::size_t i, auto prefetch) {
+      if (i >= n) return;
+      const TriangleRecord& record = Record(set_up_[i]);
+      prefetch(drawable_of(record), record);
+    };
+    for (std::size_t i = 0; i < n; ++i) {
+      ahead(i + 2 * kAhead, PrefetchIndices);
+      ahead(i + kAhead, PrefetchVertices);
+      const TriangleRecord& record = Record(set_up_[i]);
+      SetUpTriangle(in_.view, drawable_of(record), material, record, anchor_x, anchor_y,
+                    setups_.data() + i * SetupLayout::kStride);
+    }
   }
 
   // The environment, where pixels are not wholly covered.
@@ -349,7 +359,7 @@ class TileWorker final : public RecordTable {
   std::vector<std::uint32_t> batch_;
   std::vector<SetupOfRecord> setup_of_record_;
   std::uint64_t batch_number_ = 0;
-  std::size_t setup_count_ = 0;
+  std::vector<std::int32_t> set_up_;  // numbers of the records that have a setup in this batch, in its order
   std::vector<float> setups_;
   std::vector<std::int32_t> setup_of_;
   std::vector<float> x_, y_, red_, green_, blue_, alpha_;
