@@ -7,6 +7,7 @@
 #include <limits>
 #include <memory>
 #include <mutex>
+#include <numeric>
 #include <utility>
 
 #include "base/parallel.h"
@@ -67,6 +68,8 @@ class TileWorker final : public RecordTable {
     tile_.tile_size = size;
     tile_.samples = in_.settings.samples;
     records_.clear();
+    material_ = -1;
+    one_material_ = true;
     setup_of_record_.clear();
     opaque_.list.Clear();
     blended_.list.Clear();
@@ -115,6 +118,9 @@ class TileWorker final : public RecordTable {
     const TriangleRecord** out = records_.data() + before;
     for (const TileRun& run : runs) {
       const TriangleChunk& chunk = in_.geometry.chunks[run.chunk];
+      const int material = in_.geometry.drawables[chunk.drawable].material;
+      one_material_ = one_material_ && (material_ < 0 || material_ == material);
+      material_ = material;
       const TriangleRecord* records = chunk.records.data();
       for (std::uint32_t e = run.begin; e < run.end; ++e) *out++ = records + chunk.entries[e];
     }
@@ -140,8 +146,7 @@ class TileWorker final : public RecordTable {
                       masked_.list);
         const std::size_t n = masked_.list.Size();
         masked_.Resize();
-        batch_.clear();
-        for (std::size_t i = 0; i < n; ++i) batch_.push_back(static_cast<std::uint32_t>(i));
+        BatchAll(n);
         ShadeBatch(m, masked_, /*alpha_only=*/true);
         for (std::size_t i = 0; i < n; ++i) {
           if (!(masked_.alpha[i] >= m.alpha_cutoff)) continue;
@@ -152,24 +157,38 @@ class TileWorker final : public RecordTable {
     }
   }
 
+  std::uint32_t MaterialOf(std::int32_t number) const {
+    return static_cast<std::uint32_t>(in_.geometry.drawables[Record(number).drawable].material);
+  }
+
+  // All of a list's fragments, in their order, for ShadeBatch().
+  void BatchAll(std::size_t n) {
+    batch_.resize(n);
+    std::iota(batch_.begin(), batch_.end(), 0u);
+  }
+
   // Shades all fragments of a list, material by material.
   void Shade(ShadedFragments& fragments) {
     const std::size_t n = fragments.list.Size();
     fragments.Resize();
     ChooseLights(fragments.list);
+    if (n == 0) return;
+    if (one_material_) {
+      BatchAll(n);
+      ShadeBatch(in_.plan.materials[MaterialOf(fragments.list.record[0])].frame, fragments, /*alpha_only=*/false);
+      return;
+    }
     by_material_.resize(n);
     std::int32_t last_number = kNoRecord;
     std::uint32_t last_material = 0;
-    bool one_material = true;
     for (std::size_t i = 0; i < n; ++i) {
       if (fragments.list.record[i] != last_number) {
         last_number = fragments.list.record[i];
-        last_material = static_cast<std::uint32_t>(in_.geometry.drawables[Record(last_number).drawable].material);
+        last_material = MaterialOf(last_number);
       }
       by_material_[i] = {last_material, static_cast<std::uint32_t>(i)};
-      one_material = one_material && last_material == by_material_[0].first;
     }
-    if (!one_material) std::sort(by_material_.begin(), by_material_.end());
+    std::sort(by_material_.begin(), by_material_.end());
     for (std::size_t i = 0; i < n;) {
       const std::uint32_t material = by_material_[i].first;
       batch_.clear();
@@ -355,6 +374,8 @@ class TileWorker final : public RecordTable {
   Compositor compositor_;
   std::vector<const TriangleRecord*> records_;
   std::vector<std::int32_t> numbers_;
+  int material_ = -1;         // of the record that came last
+  bool one_material_ = true;  // all records have it
   std::vector<std::pair<std::uint32_t, std::uint32_t>> by_material_;  // material, fragment
   std::vector<std::uint32_t> batch_;
   std::vector<SetupOfRecord> setup_of_record_;
