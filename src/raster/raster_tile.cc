@@ -43,9 +43,7 @@ struct TriangleEdges {
     constexpr std::int64_t kReach = kBlockSize * kSampleGrid - 1;
     Overlap overlap = Overlap::Whole;
     for (int i = 0; i < 3; ++i) {
-      // Divided by 16, rounding down: a and b multiply whole sixteenths of a pixel, that is multiples of 16 fx8.
-      const std::int64_t corner =
-          (a[i] * (std::int64_t{x_px} << kSubpixelBits) + b[i] * (std::int64_t{y_px} << kSubpixelBits) + c[i]) >> 4;
+      const std::int64_t corner = Corner(i, x_px, y_px);
       const std::int64_t low = corner + std::min<std::int64_t>(a[i], 0) * kReach + std::min<std::int64_t>(b[i], 0) * kReach;
       const std::int64_t high = corner + std::max<std::int64_t>(a[i], 0) * kReach + std::max<std::int64_t>(b[i], 0) * kReach;
       if (high < 0) return Overlap::None;
@@ -57,21 +55,43 @@ struct TriangleEdges {
     }
     return overlap;
   }
+
+  // The same without asking, for triangles that are no larger than a block and touch this one with their bounding box:
+  // their edges fit 32 bits anywhere in it.
+  HWY_INLINE Overlap AcrossBlock(int x_px, int y_px, BlockEdges& out) const {
+    for (int i = 0; i < 3; ++i) {
+      out.a[i] = static_cast<std::int32_t>(a[i]);
+      out.b[i] = static_cast<std::int32_t>(b[i]);
+      out.c[i] = static_cast<std::int32_t>(Corner(i, x_px, y_px));
+    }
+    return Overlap::Part;
+  }
+
+  // Edge i at a block's corner, divided by 16, rounding down: a and b multiply whole sixteenths of a pixel, that is
+  // multiples of 16 fx8.
+  HWY_INLINE std::int64_t Corner(int i, int x_px, int y_px) const {
+    return (a[i] * (std::int64_t{x_px} << kSubpixelBits) + b[i] * (std::int64_t{y_px} << kSubpixelBits) + c[i]) >> 4;
+  }
 };
-static_assert(kSubpixelScale / kSampleGrid == 16, "the shift in InBlock");
+static_assert(kSubpixelScale / kSampleGrid == 16, "the shift in Corner");
 
 // The part of a triangle's bounding box that lies in the tile, in blocks and rows of it.
 struct BlockRange {
   int x0, y0, x1, y1;        // blocks within the tile, inclusive
   int first_row, last_row;   // pixels within the tile
+  bool small;                // no larger than a block, so that it covers none wholly
 
   HWY_INLINE BlockRange(const TriangleRecord& r, const TileBuffers& tile) {
-    const auto [min_x, max_x] = std::minmax({r.x_fx8[0], r.x_fx8[1], r.x_fx8[2]});
-    const auto [min_y, max_y] = std::minmax({r.y_fx8[0], r.y_fx8[1], r.y_fx8[2]});
+    // Pairs, and not lists of three, become instructions without a branch.
+    const int min_x = std::min(std::min(r.x_fx8[0], r.x_fx8[1]), r.x_fx8[2]);
+    const int min_y = std::min(std::min(r.y_fx8[0], r.y_fx8[1]), r.y_fx8[2]);
+    const int max_x = std::max(std::max(r.x_fx8[0], r.x_fx8[1]), r.x_fx8[2]);
+    const int max_y = std::max(std::max(r.y_fx8[0], r.y_fx8[1]), r.y_fx8[2]);
     const int last_column_px = std::min((max_x >> kSubpixelBits) - tile.x0, tile.width - 1);
     const int first_column_px = std::max((min_x >> kSubpixelBits) - tile.x0, 0);
     first_row = std::max((min_y >> kSubpixelBits) - tile.y0, 0);
     last_row = std::min((max_y >> kSubpixelBits) - tile.y0, tile.height - 1);
+    small = ((max_x - min_x) | (max_y - min_y)) < kBlockSize << kSubpixelBits;
     x0 = first_column_px / kBlockSize, y0 = first_row / kBlockSize;
     x1 = last_column_px < 0 ? -1 : last_column_px / kBlockSize;
     y1 = last_row < 0 ? -1 : last_row / kBlockSize;
@@ -124,7 +144,8 @@ HWY_INLINE void VisitCoverage(const TriangleRecord& r, const TileBuffers& tile, 
       const float farthest = tile.farthest[block_index];
       if (kOrEqual ? r.depth_max < farthest : r.depth_max <= farthest) continue;
       BlockEdges e;
-      const TriangleEdges::Overlap overlap = edges.InBlock(x_px, y_px, e);
+      const TriangleEdges::Overlap overlap =
+          range.small ? edges.AcrossBlock(x_px, y_px, e) : edges.InBlock(x_px, y_px, e);
       if (overlap == TriangleEdges::Overlap::None) continue;
       const BlockDepth d = MakeBlockDepth(r, x_px, y_px);
       const std::size_t block = block_index * std::size_t(samples * kBlockPixels);

@@ -97,12 +97,14 @@ class TileWorker final : public RecordTable {
       if (background) LayUnder(background_);
       compositor_.Run(tile_, opaque_, blended_, *this, background_, pixels_);
     }
+    int covered = 0;
     for (int y = 0; y < tile_.height; ++y) {
       const glm::vec4* row = pixels_.data() + std::size_t(y) * std::size_t(size);
-      for (int x = 0; x < tile_.width; ++x) counts.covered += row[x].a > 0.0f;
+      for (int x = 0; x < tile_.width; ++x) covered += row[x].a > 0.0f;
       std::copy(row, row + tile_.width,
                 film.pixels.begin() + std::ptrdiff_t(film_y0 + y) * film.width + tile_.x0);
     }
+    counts.covered += static_cast<std::uint64_t>(covered);
   }
 
   const TriangleRecord& Record(std::int32_t number) const override { return *records_[std::size_t(number)]; }
