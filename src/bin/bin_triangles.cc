@@ -105,7 +105,7 @@ void BinChunk(const TileGrid& grid, TriangleChunk& chunk) {
     chunk.entries[i] = place[entries[i].record];
   }
   for (std::uint32_t i = 0; i < place.size(); ++i) put(i);
-  chunk.records.swap(ordered);
+  std::copy(ordered.begin(), ordered.end(), chunk.records.begin());  // which keeps its memory from frame to frame
   chunk.begin.push_back(static_cast<std::uint32_t>(entries.size()));
 }
 
