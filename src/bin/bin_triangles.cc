@@ -86,13 +86,26 @@ void BinChunk(const TileGrid& grid, TriangleChunk& chunk) {
   chunk.tiles.clear();
   chunk.begin.clear();
   chunk.entries.resize(entries.size());
+  // A tile that finds its records scattered waits for memory longer than it computes.
+  constexpr std::uint32_t kNowhere = ~0u;
+  std::vector<std::uint32_t> place(chunk.records.size(), kNowhere);
+  std::vector<TriangleRecord> ordered;
+  ordered.reserve(chunk.records.size());
+  const auto put = [&](std::uint32_t record) {
+    if (place[record] != kNowhere) return;
+    place[record] = static_cast<std::uint32_t>(ordered.size());
+    ordered.push_back(chunk.records[record]);
+  };
   for (std::uint32_t i = 0; i < entries.size(); ++i) {
     if (i == 0 || entries[i].tile != entries[i - 1].tile) {
       chunk.tiles.push_back(entries[i].tile);
       chunk.begin.push_back(i);
     }
-    chunk.entries[i] = entries[i].record;
+    put(entries[i].record);
+    chunk.entries[i] = place[entries[i].record];
   }
+  for (std::uint32_t i = 0; i < place.size(); ++i) put(i);
+  std::copy(ordered.begin(), ordered.end(), chunk.records.begin());  // which keeps its memory from frame to frame
   chunk.begin.push_back(static_cast<std::uint32_t>(entries.size()));
 }
 

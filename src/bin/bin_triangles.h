@@ -6,7 +6,8 @@
 
 namespace facet {
 
-// Fills chunk.tiles, chunk.begin and chunk.entries from chunk.records. Entries of a tile keep the records' order.
+// Fills chunk.tiles, chunk.begin and chunk.entries from chunk.records, and puts these in the order in which tiles come
+// to them, so that a tile reads neighbours. Entries of a tile keep the order that the records had.
 void BinChunk(const TileGrid& grid, TriangleChunk& chunk);
 
 }  // namespace facet

@@ -13,14 +13,16 @@ void Compositor::ByPixel::Fill(const FragmentList& list, std::size_t pixel_count
   for (std::size_t i = 0; i < list.Size(); ++i) order[next[list.pixel[i]]++] = static_cast<std::uint32_t>(i);
 }
 
-void Compositor::Run(const TileBuffers& tile, const ShadedFragments& opaque, const ShadedFragments& blended,
+template <int kSamples>
+void Compositor::Lay(const TileBuffers& tile, const ShadedFragments& opaque, const ShadedFragments& blended,
                      const RecordTable& records, const std::vector<glm::vec4>& background,
                      std::vector<glm::vec4>& pixels) {
+  const int samples = tile.Samples<kSamples>();
   const std::size_t pixel_count = pixels.size();
   layers_of_.Fill(blended.list, pixel_count);
   opaque_of_.Fill(opaque.list, pixel_count);
-  const SamplePosition* pattern = SamplePattern(tile.samples);
-  const float share = 1.0f / static_cast<float>(tile.samples);
+  const SamplePosition* pattern = SamplePattern(samples);
+  const float share = 1.0f / static_cast<float>(samples);
   for (std::size_t p = 0; p < pixel_count; ++p) {
     const std::uint32_t begin = layers_of_.first[p], end = layers_of_.first[p + 1];
     if (begin == end) continue;
@@ -32,7 +34,7 @@ void Compositor::Run(const TileBuffers& tile, const ShadedFragments& opaque, con
                                        tile.y0 + block_y));
     }
     glm::vec4 sum(0.0f);
-    for (int s = 0; s < tile.samples; ++s) {
+    for (int s = 0; s < samples; ++s) {
       glm::vec4 color = background[p];
       for (std::uint32_t k = opaque_of_.first[p]; k < opaque_of_.first[p + 1]; ++k) {
         const std::uint32_t i = opaque_of_.order[k];
@@ -46,9 +48,11 @@ void Compositor::Run(const TileBuffers& tile, const ShadedFragments& opaque, con
         if (blended.list.samples[i] >> s & 1) layers_.push_back({DepthAt(planes_[k - begin], sample_x, sample_y), i});
       }
       // Fragment numbers follow submission order, so this is a stable sort without its memory.
-      std::sort(layers_.begin(), layers_.end(), [](const Layer& a, const Layer& b) {
-        return a.depth != b.depth ? a.depth < b.depth : a.fragment < b.fragment;
-      });
+      if (layers_.size() > 1) {
+        std::sort(layers_.begin(), layers_.end(), [](const Layer& a, const Layer& b) {
+          return a.depth != b.depth ? a.depth < b.depth : a.fragment < b.fragment;
+        });
+      }
       for (const Layer& layer : layers_) {
         const std::uint32_t i = layer.fragment;
         const float a = blended.alpha[i];
@@ -57,6 +61,16 @@ void Compositor::Run(const TileBuffers& tile, const ShadedFragments& opaque, con
       sum += color;
     }
     pixels[p] = sum * share;
+  }
+}
+
+void Compositor::Run(const TileBuffers& tile, const ShadedFragments& opaque, const ShadedFragments& blended,
+                     const RecordTable& records, const std::vector<glm::vec4>& background,
+                     std::vector<glm::vec4>& pixels) {
+  if (tile.samples == 1) {
+    Lay<1>(tile, opaque, blended, records, background, pixels);
+  } else {
+    Lay<0>(tile, opaque, blended, records, background, pixels);
   }
 }
 

@@ -26,6 +26,10 @@ class Compositor {
            const RecordTable& records, const std::vector<glm::vec4>& background, std::vector<glm::vec4>& pixels);
 
  private:
+  template <int kSamples>
+  void Lay(const TileBuffers& tile, const ShadedFragments& opaque, const ShadedFragments& blended,
+           const RecordTable& records, const std::vector<glm::vec4>& background, std::vector<glm::vec4>& pixels);
+
   // Fragments by pixel: those of pixel p are order[first[p]] to order[first[p + 1] - 1], in their list's order.
   struct ByPixel {
     std::vector<std::uint32_t> first, next, order;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/pages.h"
 #include "frame/constants.h"
 #include "frame/geometry.h"
 
@@ -11,14 +12,15 @@ namespace facet {
 
 inline constexpr std::int32_t kNoRecord = -1;
 
-// Fragments: (pixel, triangle) pairs, in the order in which they were found.
+// Fragments: (pixel, triangle) pairs, in the order in which they were found. What Resize() adds is unset.
 struct FragmentList {
-  std::vector<std::uint16_t> pixel;   // y * tile_size + x within the tile
-  std::vector<std::int32_t> record;   // number of the triangle record within the tile, in submission order
-  std::vector<std::uint8_t> samples;  // bit s: covers sample s
+  PageVector<std::uint16_t> pixel;    // y * tile_size + x within the tile
+  PageVector<std::int32_t> record;    // number of the triangle record within the tile, in submission order
+  PageVector<std::uint8_t> samples;   // bit s: covers sample s
 
   std::size_t Size() const { return pixel.size(); }
-  void Clear() { pixel.clear(), record.clear(), samples.clear(); }
+  void Clear() { Resize(0); }
+  void Resize(std::size_t count) { pixel.resize(count), record.resize(count), samples.resize(count); }
   void Push(std::uint16_t p, std::int32_t r, std::uint8_t s) { pixel.push_back(p), record.push_back(r), samples.push_back(s); }
 };
 
@@ -40,6 +42,11 @@ struct TileBuffers {
   std::vector<std::int32_t> record;
   // A depth that every sample of a block reaches: what is no nearer than it cannot be seen there. One entry a block.
   std::vector<float> farthest;
+
+  // For code that is compiled for one sample apart, so that it costs what it would if there were never more: kSamples,
+  // or as many as there are where that is 0.
+  template <int kSamples>
+  int Samples() const { return kSamples != 0 ? kSamples : samples; }
 
   int BlocksPerRow() const { return tile_size / kBlockSize; }
   std::size_t BlockIndex(int block_x, int block_y) const { return std::size_t(block_y * BlocksPerRow() + block_x); }

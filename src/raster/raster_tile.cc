@@ -23,7 +23,7 @@ struct BlockEdges {
 struct TriangleEdges {
   std::int64_t a[3], b[3], c[3];  // a * x + b * y + c, x and y in fx8 from the picture's origin; fill rule included
 
-  explicit TriangleEdges(const TriangleRecord& r) {
+  HWY_INLINE explicit TriangleEdges(const TriangleRecord& r) {
     for (int i = 0; i < 3; ++i) {
       const int j = i == 2 ? 0 : i + 1;
       a[i] = r.y_fx8[i] - r.y_fx8[j];
@@ -39,13 +39,11 @@ struct TriangleEdges {
   // How a block lies: outside one edge, cut by some, or inside all. An edge that the whole block is inside of becomes
   // 0 >= 0.
   enum class Overlap { None, Part, Whole };
-  Overlap InBlock(int x_px, int y_px, BlockEdges& out) const {
+  HWY_INLINE Overlap InBlock(int x_px, int y_px, BlockEdges& out) const {
     constexpr std::int64_t kReach = kBlockSize * kSampleGrid - 1;
     Overlap overlap = Overlap::Whole;
     for (int i = 0; i < 3; ++i) {
-      // Divided by 16, rounding down: a and b multiply whole sixteenths of a pixel, that is multiples of 16 fx8.
-      const std::int64_t corner =
-          (a[i] * (std::int64_t{x_px} << kSubpixelBits) + b[i] * (std::int64_t{y_px} << kSubpixelBits) + c[i]) >> 4;
+      const std::int64_t corner = Corner(i, x_px, y_px);
       const std::int64_t low = corner + std::min<std::int64_t>(a[i], 0) * kReach + std::min<std::int64_t>(b[i], 0) * kReach;
       const std::int64_t high = corner + std::max<std::int64_t>(a[i], 0) * kReach + std::max<std::int64_t>(b[i], 0) * kReach;
       if (high < 0) return Overlap::None;
@@ -57,21 +55,43 @@ struct TriangleEdges {
     }
     return overlap;
   }
+
+  // The same without asking, for triangles that are no larger than a block and touch this one with their bounding box:
+  // their edges fit 32 bits anywhere in it.
+  HWY_INLINE Overlap AcrossBlock(int x_px, int y_px, BlockEdges& out) const {
+    for (int i = 0; i < 3; ++i) {
+      out.a[i] = static_cast<std::int32_t>(a[i]);
+      out.b[i] = static_cast<std::int32_t>(b[i]);
+      out.c[i] = static_cast<std::int32_t>(Corner(i, x_px, y_px));
+    }
+    return Overlap::Part;
+  }
+
+  // Edge i at a block's corner, divided by 16, rounding down: a and b multiply whole sixteenths of a pixel, that is
+  // multiples of 16 fx8.
+  HWY_INLINE std::int64_t Corner(int i, int x_px, int y_px) const {
+    return (a[i] * (std::int64_t{x_px} << kSubpixelBits) + b[i] * (std::int64_t{y_px} << kSubpixelBits) + c[i]) >> 4;
+  }
 };
-static_assert(kSubpixelScale / kSampleGrid == 16, "the shift in InBlock");
+static_assert(kSubpixelScale / kSampleGrid == 16, "the shift in Corner");
 
 // The part of a triangle's bounding box that lies in the tile, in blocks and rows of it.
 struct BlockRange {
   int x0, y0, x1, y1;        // blocks within the tile, inclusive
   int first_row, last_row;   // pixels within the tile
+  bool small;                // no larger than a block, so that it covers none wholly
 
-  BlockRange(const TriangleRecord& r, const TileBuffers& tile) {
-    const auto [min_x, max_x] = std::minmax({r.x_fx8[0], r.x_fx8[1], r.x_fx8[2]});
-    const auto [min_y, max_y] = std::minmax({r.y_fx8[0], r.y_fx8[1], r.y_fx8[2]});
+  HWY_INLINE BlockRange(const TriangleRecord& r, const TileBuffers& tile) {
+    // Pairs, and not lists of three, become instructions without a branch.
+    const int min_x = std::min(std::min(r.x_fx8[0], r.x_fx8[1]), r.x_fx8[2]);
+    const int min_y = std::min(std::min(r.y_fx8[0], r.y_fx8[1]), r.y_fx8[2]);
+    const int max_x = std::max(std::max(r.x_fx8[0], r.x_fx8[1]), r.x_fx8[2]);
+    const int max_y = std::max(std::max(r.y_fx8[0], r.y_fx8[1]), r.y_fx8[2]);
     const int last_column_px = std::min((max_x >> kSubpixelBits) - tile.x0, tile.width - 1);
     const int first_column_px = std::max((min_x >> kSubpixelBits) - tile.x0, 0);
     first_row = std::max((min_y >> kSubpixelBits) - tile.y0, 0);
     last_row = std::min((max_y >> kSubpixelBits) - tile.y0, tile.height - 1);
+    small = ((max_x - min_x) | (max_y - min_y)) < kBlockSize << kSubpixelBits;
     x0 = first_column_px / kBlockSize, y0 = first_row / kBlockSize;
     x1 = last_column_px < 0 ? -1 : last_column_px / kBlockSize;
     y1 = last_row < 0 ? -1 : last_row / kBlockSize;
@@ -108,10 +128,11 @@ namespace HWY_NAMESPACE {
 // touches: `offset` is the group's place in the tile's buffers, `passed` the lanes that are covered and pass the depth
 // test (nearer, or with kOrEqual not farther). end_group(block_x, block_y, first pixel) comes after all samples of a
 // group, end_block(block_x, block_y, wholly covered) after all groups of a block; block_x and block_y in blocks.
-template <bool kOrEqual, class Visit, class EndGroup, class EndBlock>
+template <bool kOrEqual, int kSamples, class Visit, class EndGroup, class EndBlock>
 HWY_INLINE void VisitCoverage(const TriangleRecord& r, const TileBuffers& tile, const Visit& visit,
                               const EndGroup& end_group, const EndBlock& end_block) {
-  const SamplePosition* pattern = SamplePattern(tile.samples);
+  const int samples = tile.Samples<kSamples>();
+  const SamplePosition* pattern = SamplePattern(samples);
   const TriangleEdges edges(r);
   const BlockRange range(r, tile);
   const int lanes = static_cast<int>(LaneCount());
@@ -119,13 +140,15 @@ HWY_INLINE void VisitCoverage(const TriangleRecord& r, const TileBuffers& tile, 
   for (int by = range.y0; by <= range.y1; ++by) {
     for (int bx = range.x0; bx <= range.x1; ++bx) {
       const int x_px = tile.x0 + bx * kBlockSize, y_px = tile.y0 + by * kBlockSize;
-      const float farthest = tile.farthest[tile.BlockIndex(bx, by)];
+      const std::size_t block_index = tile.BlockIndex(bx, by);
+      const float farthest = tile.farthest[block_index];
       if (kOrEqual ? r.depth_max < farthest : r.depth_max <= farthest) continue;
       BlockEdges e;
-      const TriangleEdges::Overlap overlap = edges.InBlock(x_px, y_px, e);
+      const TriangleEdges::Overlap overlap =
+          range.small ? edges.AcrossBlock(x_px, y_px, e) : edges.InBlock(x_px, y_px, e);
       if (overlap == TriangleEdges::Overlap::None) continue;
       const BlockDepth d = MakeBlockDepth(r, x_px, y_px);
-      const std::size_t block = tile.BlockOffset(bx, by);
+      const std::size_t block = block_index * std::size_t(samples * kBlockPixels);
       const int first = std::max(range.first_row - by * kBlockSize, 0) * kBlockSize;
       const int last = std::min(range.last_row - by * kBlockSize, kBlockSize - 1) * kBlockSize + kBlockSize - 1;
       for (int i = first / group * group; i <= last; i += group) {
@@ -133,7 +156,7 @@ HWY_INLINE void VisitCoverage(const TriangleRecord& r, const TileBuffers& tile, 
         const Int e0 = Int(e.a[0]) * px + Int(e.b[0]) * py + Int(e.c[0]);
         const Int e1 = Int(e.a[1]) * px + Int(e.b[1]) * py + Int(e.c[1]);
         const Int e2 = Int(e.a[2]) * px + Int(e.b[2]) * py + Int(e.c[2]);
-        for (int s = 0; s < tile.samples; ++s) {
+        for (int s = 0; s < samples; ++s) {
           const int sx = pattern[s].x, sy = pattern[s].y;
           const Int inside = (e0 + Int(e.a[0] * sx + e.b[0] * sy)) | (e1 + Int(e.a[1] * sx + e.b[1] * sy)) |
                              (e2 + Int(e.a[2] * sx + e.b[2] * sy));
@@ -155,12 +178,13 @@ HWY_INLINE void VisitCoverage(const TriangleRecord& r, const TileBuffers& tile, 
   }
 }
 
-void RasterOpaqueKernel(const TileTriangles& triangles, TileBuffers& tile) {
+template <int kSamples>
+HWY_INLINE void Draw(const TileTriangles& triangles, TileBuffers& tile) {
   constexpr std::size_t kAhead = 8;  // records lie scattered in memory
   for (std::size_t t = 0; t < triangles.count; ++t) {
     if (t + kAhead < triangles.count) PrefetchRecord(*triangles.records[t + kAhead]);
     const Int number(triangles.numbers[t]);
-    VisitCoverage<false>(
+    VisitCoverage<false, kSamples>(
         *triangles.records[t], tile,
         [&](std::size_t offset, int, Mask nearer, Float depth) HWY_ATTR {
           float* depths = tile.depth.data() + offset;
@@ -171,23 +195,28 @@ void RasterOpaqueKernel(const TileTriangles& triangles, TileBuffers& tile) {
         [](int, int, int) HWY_ATTR {},
         [&](int block_x, int block_y, bool whole) HWY_ATTR {
           if (!whole) return;
-          const float* depths = tile.depth.data() + tile.BlockOffset(block_x, block_y);
+          const std::size_t size = std::size_t(tile.Samples<kSamples>() * kBlockPixels);
+          const std::size_t block = tile.BlockIndex(block_x, block_y);
+          const float* depths = tile.depth.data() + block * size;
           Float lowest = LoadFloat(depths);
-          const std::size_t size = std::size_t(tile.samples * kBlockPixels);
           for (std::size_t i = LaneCount(); i < size; i += LaneCount()) lowest = Min(lowest, LoadFloat(depths + i));
           alignas(64) float lanes[kMaxLanes];
           Store(lowest, lanes);
-          tile.farthest[tile.BlockIndex(block_x, block_y)] = *std::min_element(lanes, lanes + LaneCount());
+          tile.farthest[block] = *std::min_element(lanes, lanes + LaneCount());
         });
   }
 }
 
-template <bool kOrEqual>
+void RasterOpaqueKernel(const TileTriangles& triangles, TileBuffers& tile) {
+  tile.samples == 1 ? Draw<1>(triangles, tile) : Draw<0>(triangles, tile);
+}
+
+template <bool kOrEqual, int kSamples>
 HWY_INLINE void Collect(const TileTriangles& triangles, const TileBuffers& tile, FragmentList& out) {
   for (std::size_t t = 0; t < triangles.count; ++t) {
     std::uint32_t lanes_of[kMaxSamples] = {};
     std::uint32_t any = 0;
-    VisitCoverage<kOrEqual>(
+    VisitCoverage<kOrEqual, kSamples>(
         *triangles.records[t], tile,
         [&](std::size_t, int s, Mask nearer, Float) HWY_ATTR { any |= lanes_of[s] = BitsOf(nearer); },
         [&](int block_x, int block_y, int first) HWY_ATTR {
@@ -196,7 +225,7 @@ HWY_INLINE void Collect(const TileTriangles& triangles, const TileBuffers& tile,
             const int x = block_x * kBlockSize + (first + lane) % kBlockSize;
             const int y = block_y * kBlockSize + (first + lane) / kBlockSize;
             std::uint32_t samples = 0;
-            for (int s = 0; s < tile.samples; ++s) samples |= (lanes_of[s] >> lane & 1u) << s;
+            for (int s = 0; s < tile.Samples<kSamples>(); ++s) samples |= (lanes_of[s] >> lane & 1u) << s;
             if (x < tile.width && y < tile.height) {
               out.Push(static_cast<std::uint16_t>(y * tile.tile_size + x), triangles.numbers[t],
                        static_cast<std::uint8_t>(samples));
@@ -210,10 +239,11 @@ HWY_INLINE void Collect(const TileTriangles& triangles, const TileBuffers& tile,
 
 void RasterCollectKernel(const TileTriangles& triangles, const TileBuffers& tile, FragmentList& out,
                          CollectDepth test) {
+  const bool one_sample = tile.samples == 1;
   if (test == CollectDepth::Nearer) {
-    Collect<false>(triangles, tile, out);
+    one_sample ? Collect<false, 1>(triangles, tile, out) : Collect<false, 0>(triangles, tile, out);
   } else {
-    Collect<true>(triangles, tile, out);
+    one_sample ? Collect<true, 1>(triangles, tile, out) : Collect<true, 0>(triangles, tile, out);
   }
 }
 
@@ -242,13 +272,16 @@ void RasterCollect(const TileTriangles& triangles, const TileBuffers& tile, Frag
   FACET_DISPATCH(RasterCollectKernel)(triangles, tile, out, test);
 }
 
-void WriteFragment(const TriangleRecord& record, std::int32_t number, std::uint16_t pixel, std::uint8_t samples,
-                   TileBuffers& tile) {
+namespace {
+
+template <int kSamples>
+void Write(const TriangleRecord& record, std::int32_t number, std::uint16_t pixel, std::uint8_t samples,
+           TileBuffers& tile) {
   const int x = pixel % tile.tile_size, y = pixel / tile.tile_size;
   const int block_x = x / kBlockSize * kBlockSize, block_y = y / kBlockSize * kBlockSize;
   const BlockDepth d = MakeBlockDepth(record, tile.x0 + block_x, tile.y0 + block_y);
-  const SamplePosition* pattern = SamplePattern(tile.samples);
-  for (int s = 0; s < tile.samples; ++s) {
+  const SamplePosition* pattern = SamplePattern(tile.Samples<kSamples>());
+  for (int s = 0; s < tile.Samples<kSamples>(); ++s) {
     if ((samples >> s & 1) == 0) continue;
     const float depth = DepthAt(d, static_cast<float>((x - block_x) * kSampleGrid + pattern[s].x) / kSampleGrid,
                                 static_cast<float>((y - block_y) * kSampleGrid + pattern[s].y) / kSampleGrid);
@@ -257,9 +290,17 @@ void WriteFragment(const TriangleRecord& record, std::int32_t number, std::uint1
   }
 }
 
-void VisibleFragments(const TileBuffers& tile, FragmentList& out) {
+// The list grows once a tile and not fragment by fragment.
+template <int kSamples>
+void ListVisible(const TileBuffers& tile, FragmentList& out) {
   constexpr int kSquare = 4;
-  const std::uint32_t all = (1u << tile.samples) - 1;
+  const int samples = tile.Samples<kSamples>();
+  const std::uint32_t all = (1u << samples) - 1;
+  std::size_t count = out.Size();
+  out.Resize(count + std::size_t(tile.width * tile.height * samples));
+  std::uint16_t* pixels = out.pixel.data();
+  std::int32_t* numbers = out.record.data();
+  std::uint8_t* masks = out.samples.data();
   for (int square_y = 0; square_y < tile.height; square_y += kSquare) {
     for (int square_x = 0; square_x < tile.width; square_x += kSquare) {
       const int right = std::min(square_x + kSquare, tile.width), bottom = std::min(square_y + kSquare, tile.height);
@@ -268,20 +309,33 @@ void VisibleFragments(const TileBuffers& tile, FragmentList& out) {
         const int row = y * tile.tile_size;
         for (int x = square_x; x < right; ++x, ++records) {
           for (std::uint32_t open = all; open != 0;) {
-            const int s = __builtin_ctz(open);
+            const int s = kSamples == 1 ? 0 : __builtin_ctz(open);
             const std::int32_t number = records[s * kBlockPixels];
             std::uint32_t same = 1u << s;
-            for (int k = s + 1; k < tile.samples; ++k) same |= std::uint32_t{records[k * kBlockPixels] == number} << k;
+            for (int k = s + 1; k < samples; ++k) same |= std::uint32_t{records[k * kBlockPixels] == number} << k;
             same &= open;
             open &= ~same;
-            if (number != kNoRecord) {
-              out.Push(static_cast<std::uint16_t>(row + x), number, static_cast<std::uint8_t>(same));
-            }
+            pixels[count] = static_cast<std::uint16_t>(row + x);
+            numbers[count] = number;
+            masks[count] = static_cast<std::uint8_t>(same);
+            count += number != kNoRecord;
           }
         }
       }
     }
   }
+  out.Resize(count);
+}
+
+}  // namespace
+
+void WriteFragment(const TriangleRecord& record, std::int32_t number, std::uint16_t pixel, std::uint8_t samples,
+                   TileBuffers& tile) {
+  tile.samples == 1 ? Write<1>(record, number, pixel, samples, tile) : Write<0>(record, number, pixel, samples, tile);
+}
+
+void VisibleFragments(const TileBuffers& tile, FragmentList& out) {
+  tile.samples == 1 ? ListVisible<1>(tile, out) : ListVisible<0>(tile, out);
 }
 
 }  // namespace facet

@@ -7,6 +7,7 @@
 #include <limits>
 #include <memory>
 #include <mutex>
+#include <numeric>
 #include <utility>
 
 #include "base/parallel.h"
@@ -67,6 +68,8 @@ class TileWorker final : public RecordTable {
     tile_.tile_size = size;
     tile_.samples = in_.settings.samples;
     records_.clear();
+    material_ = -1;
+    one_material_ = true;
     setup_of_record_.clear();
     opaque_.list.Clear();
     blended_.list.Clear();
@@ -94,12 +97,14 @@ class TileWorker final : public RecordTable {
       if (background) LayUnder(background_);
       compositor_.Run(tile_, opaque_, blended_, *this, background_, pixels_);
     }
+    int covered = 0;
     for (int y = 0; y < tile_.height; ++y) {
       const glm::vec4* row = pixels_.data() + std::size_t(y) * std::size_t(size);
-      for (int x = 0; x < tile_.width; ++x) counts.covered += row[x].a > 0.0f;
+      for (int x = 0; x < tile_.width; ++x) covered += row[x].a > 0.0f;
       std::copy(row, row + tile_.width,
                 film.pixels.begin() + std::ptrdiff_t(film_y0 + y) * film.width + tile_.x0);
     }
+    counts.covered += static_cast<std::uint64_t>(covered);
   }
 
   const TriangleRecord& Record(std::int32_t number) const override { return *records_[std::size_t(number)]; }
@@ -115,6 +120,9 @@ class TileWorker final : public RecordTable {
     const TriangleRecord** out = records_.data() + before;
     for (const TileRun& run : runs) {
       const TriangleChunk& chunk = in_.geometry.chunks[run.chunk];
+      const int material = in_.geometry.drawables[chunk.drawable].material;
+      one_material_ = one_material_ && (material_ < 0 || material_ == material);
+      material_ = material;
       const TriangleRecord* records = chunk.records.data();
       for (std::uint32_t e = run.begin; e < run.end; ++e) *out++ = records + chunk.entries[e];
     }
@@ -140,8 +148,7 @@ class TileWorker final : public RecordTable {
                       masked_.list);
         const std::size_t n = masked_.list.Size();
         masked_.Resize();
-        batch_.clear();
-        for (std::size_t i = 0; i < n; ++i) batch_.push_back(static_cast<std::uint32_t>(i));
+        BatchAll(n);
         ShadeBatch(m, masked_, /*alpha_only=*/true);
         for (std::size_t i = 0; i < n; ++i) {
           if (!(masked_.alpha[i] >= m.alpha_cutoff)) continue;
@@ -152,24 +159,38 @@ class TileWorker final : public RecordTable {
     }
   }
 
+  std::uint32_t MaterialOf(std::int32_t number) const {
+    return static_cast<std::uint32_t>(in_.geometry.drawables[Record(number).drawable].material);
+  }
+
+  // All of a list's fragments, in their order, for ShadeBatch().
+  void BatchAll(std::size_t n) {
+    batch_.resize(n);
+    std::iota(batch_.begin(), batch_.end(), 0u);
+  }
+
   // Shades all fragments of a list, material by material.
   void Shade(ShadedFragments& fragments) {
     const std::size_t n = fragments.list.Size();
     fragments.Resize();
     ChooseLights(fragments.list);
+    if (n == 0) return;
+    if (one_material_) {
+      BatchAll(n);
+      ShadeBatch(in_.plan.materials[MaterialOf(fragments.list.record[0])].frame, fragments, /*alpha_only=*/false);
+      return;
+    }
     by_material_.resize(n);
     std::int32_t last_number = kNoRecord;
     std::uint32_t last_material = 0;
-    bool one_material = true;
     for (std::size_t i = 0; i < n; ++i) {
       if (fragments.list.record[i] != last_number) {
         last_number = fragments.list.record[i];
-        last_material = static_cast<std::uint32_t>(in_.geometry.drawables[Record(last_number).drawable].material);
+        last_material = MaterialOf(last_number);
       }
       by_material_[i] = {last_material, static_cast<std::uint32_t>(i)};
-      one_material = one_material && last_material == by_material_[0].first;
     }
-    if (!one_material) std::sort(by_material_.begin(), by_material_.end());
+    std::sort(by_material_.begin(), by_material_.end());
     for (std::size_t i = 0; i < n;) {
       const std::uint32_t material = by_material_[i].first;
       batch_.clear();
@@ -234,28 +255,19 @@ class TileWorker final : public RecordTable {
     const FragmentList& list = fragments.list;
     std::int32_t last_number = kNoRecord, last_setup = 0;
     ++batch_number_;
-    setup_count_ = 0;
+    set_up_.clear();
     const std::uint32_t* batch = batch_.data();
     const std::int32_t* numbers = list.record.data();
     std::int32_t* setup_of = setup_of_.data();
-    constexpr std::size_t kAhead = 8;  // fragments
-    const auto ahead = [&](std::size_t i, auto prefetch) {
-      if (i >= n) return;
-      const std::int32_t number = numbers[batch[i]];
-      if (number == numbers[batch[i - 1]]) return;
-      const TriangleRecord& record = Record(number);
-      prefetch(in_.geometry.drawables[record.drawable], record);
-    };
     for (std::size_t i = 0; i < n; ++i) {
-      ahead(i + 2 * kAhead, PrefetchIndices);
-      ahead(i + kAhead, PrefetchVertices);
       const std::int32_t number = numbers[batch[i]];
       if (number != last_number) {
         last_number = number;
-        last_setup = SetupFor(material, number, anchor_x, anchor_y);
+        last_setup = SetupFor(number);
       }
       setup_of[i] = last_setup;
     }
+    SetUpTriangles(material, anchor_x, anchor_y);
     const std::uint16_t* pixels = list.pixel.data();
     const std::uint8_t* samples = list.samples.data();
     float *x = x_.data(), *y = y_.data();
@@ -302,17 +314,36 @@ class TileWorker final : public RecordTable {
     }
   }
 
-  // One per triangle and batch.
-  std::int32_t SetupFor(const FrameMaterial& material, std::int32_t number, int anchor_x, int anchor_y) {
+  // The number of a triangle's setup: there is one per triangle and batch.
+  std::int32_t SetupFor(std::int32_t number) {
     SetupOfRecord& known = setup_of_record_[std::size_t(number)];
     if (known.batch != batch_number_) {
-      known = {batch_number_, static_cast<std::int32_t>(setup_count_++)};
-      setups_.resize(std::max(setups_.size(), setup_count_ * SetupLayout::kStride));
-      const TriangleRecord& record = Record(number);
-      SetUpTriangle(in_.view, in_.geometry.drawables[record.drawable], material, record, anchor_x, anchor_y,
-                    setups_.data() + std::size_t(known.setup) * SetupLayout::kStride);
+      known = {batch_number_, static_cast<std::int32_t>(set_up_.size())};
+      set_up_.push_back(number);
     }
     return known.setup;
+  }
+
+  // Those that SetupFor() has counted.
+  void SetUpTriangles(const FrameMaterial& material, int anchor_x, int anchor_y) {
+    constexpr std::size_t kAhead = 8;  // triangles
+    const std::size_t n = set_up_.size();
+    setups_.resize(std::max(setups_.size(), n * SetupLayout::kStride));
+    const auto drawable_of = [&](const TriangleRecord& r) -> const FrameDrawable& {
+      return in_.geometry.drawables[r.drawable];
+    };
+    const auto ahead = [&](std::size_t i, auto prefetch) {
+      if (i >= n) return;
+      const TriangleRecord& record = Record(set_up_[i]);
+      prefetch(drawable_of(record), record);
+    };
+    for (std::size_t i = 0; i < n; ++i) {
+      ahead(i + 2 * kAhead, PrefetchIndices);
+      ahead(i + kAhead, PrefetchVertices);
+      const TriangleRecord& record = Record(set_up_[i]);
+      SetUpTriangle(in_.view, drawable_of(record), material, record, anchor_x, anchor_y,
+                    setups_.data() + i * SetupLayout::kStride);
+    }
   }
 
   // The environment, where pixels are not wholly covered.
@@ -345,11 +376,13 @@ class TileWorker final : public RecordTable {
   Compositor compositor_;
   std::vector<const TriangleRecord*> records_;
   std::vector<std::int32_t> numbers_;
+  int material_ = -1;         // of the record that came last
+  bool one_material_ = true;  // all records have it
   std::vector<std::pair<std::uint32_t, std::uint32_t>> by_material_;  // material, fragment
   std::vector<std::uint32_t> batch_;
   std::vector<SetupOfRecord> setup_of_record_;
   std::uint64_t batch_number_ = 0;
-  std::size_t setup_count_ = 0;
+  std::vector<std::int32_t> set_up_;  // numbers of the records that have a setup in this batch, in its order
   std::vector<float> setups_;
   std::vector<std::int32_t> setup_of_;
   std::vector<float> x_, y_, red_, green_, blue_, alpha_;

@@ -49,6 +49,7 @@ TEST(Bin, TilesHoldAllThatBruteForceFinds) {
     Random random(seed);
     TriangleChunk source;
     source.records = MixedRecords(random);
+    for (std::uint32_t i = 0; i < source.records.size(); ++i) source.records[i].primitive = i;
     std::set<Fragment> expected;
     constexpr int kSamples = 4;
     for (std::size_t i = 0; i < source.records.size(); ++i) {
@@ -77,11 +78,12 @@ TEST(Bin, TilesHoldAllThatBruteForceFinds) {
         std::vector<const TriangleRecord*> pointers;
         std::vector<std::int32_t> numbers;
         for (std::uint32_t e = chunk.begin[t]; e < chunk.begin[t + 1]; ++e) {
+          const TriangleRecord& record = chunk.records[chunk.entries[e]];
           if (e > chunk.begin[t]) {
-            EXPECT_LT(chunk.entries[e - 1], chunk.entries[e]) << "submission order";
+            EXPECT_LT(pointers.back()->primitive, record.primitive) << "submission order";
           }
-          pointers.push_back(&chunk.records[chunk.entries[e]]);
-          numbers.push_back(static_cast<std::int32_t>(chunk.entries[e]));
+          pointers.push_back(&record);
+          numbers.push_back(static_cast<std::int32_t>(record.primitive));
         }
         const int number = static_cast<int>(chunk.tiles[t]);
         const TileBuffers tile = MakeTile(grid, number % grid.columns, number / grid.columns, kSamples);
@@ -127,11 +129,14 @@ TEST(Bin, TilesAscendWhereThereAreMillions) {
     for (int i = 0; i < count; ++i) {
       const int x = random.Int(0, 16380 * 256), y = random.Int(0, i % 2 == 0 ? 1 : 2047) * 2048 + 5;  // one row of tiles
       chunk.records.push_back(MakeRecord({x, y}, {x + 300, y}, {x, y + 300}));
+      chunk.records.back().primitive = static_cast<std::uint32_t>(i);
     }
+    const std::vector<TriangleRecord> submitted = chunk.records;
     BinChunk(grid, chunk);
+    ASSERT_EQ(chunk.records.size(), submitted.size());
     std::map<std::uint32_t, std::vector<std::uint32_t>> expected;
-    for (std::uint32_t i = 0; i < chunk.records.size(); ++i) {
-      const TriangleRecord& r = chunk.records[i];
+    for (std::uint32_t i = 0; i < submitted.size(); ++i) {
+      const TriangleRecord& r = submitted[i];
       for (int x = r.x_fx8[0] / 2048; x <= (r.x_fx8[0] + 300) / 2048; ++x) {
         expected[static_cast<std::uint32_t>(r.y_fx8[0] / 2048 * grid.columns + x)].push_back(i);
       }
@@ -141,7 +146,9 @@ TEST(Bin, TilesAscendWhereThereAreMillions) {
       if (t > 0) {
         EXPECT_LT(chunk.tiles[t - 1], chunk.tiles[t]);
       }
-      got[chunk.tiles[t]].assign(chunk.entries.begin() + chunk.begin[t], chunk.entries.begin() + chunk.begin[t + 1]);
+      for (std::uint32_t e = chunk.begin[t]; e < chunk.begin[t + 1]; ++e) {
+        got[chunk.tiles[t]].push_back(chunk.records[chunk.entries[e]].primitive);
+      }
     }
     EXPECT_TRUE(got == expected) << count;
   }
