@@ -47,26 +47,36 @@ struct Header {
 };
 static_assert(sizeof(Header) == 112 && std::has_unique_object_representations_v<Header>, "no padding");
 
-// The digests of pieces are digested: they can be made, and a file be read, on all threads. visit(first, bytes) is
-// called for each piece, before it is digested.
-template <class Visit>
-void AddInPieces(Sha256& hash, std::span<const std::byte> bytes, const Visit& visit) {
-  constexpr std::size_t kPiece = std::size_t{128} << 10;
-  std::vector<Digest> pieces((bytes.size() + kPiece - 1) / kPiece);
+constexpr std::size_t kPiece = std::size_t{64} << 10;
+using Scratch = std::array<std::byte, kPiece>;
+
+// The digests of pieces are digested: they can be made, and a file be read, on all threads. get(first, size, scratch)
+// gives a piece, which may lie in `scratch`.
+template <class Get>
+void AddInPieces(Sha256& hash, std::size_t size, const Get& get) {
+  std::vector<Digest> pieces((size + kPiece - 1) / kPiece);
   ParallelFor(pieces.size(), 1, [&](std::size_t begin, std::size_t end) {
+    Scratch scratch;
     for (std::size_t i = begin; i < end; ++i) {
-      const auto piece = bytes.subspan(i * kPiece, std::min(kPiece, bytes.size() - i * kPiece));
-      visit(i * kPiece, piece.size());
       Sha256 of_piece;
-      of_piece.Add(piece);
+      of_piece.Add(get(i * kPiece, std::min(kPiece, size - i * kPiece), scratch));
       pieces[i] = of_piece.Finish();
     }
   });
-  hash.Add(std::uint64_t(bytes.size()));
+  hash.Add(std::uint64_t(size));
   hash.AddArray(pieces);
 }
 
-constexpr auto kAsItIs = [](std::size_t, std::size_t) {};
+void AddInPieces(Sha256& hash, std::span<const std::byte> bytes) {
+  AddInPieces(hash, bytes.size(),
+              [&](std::size_t first, std::size_t size, Scratch&) { return bytes.subspan(first, size); });
+}
+
+Digest DigestOf(std::span<const std::byte> bytes) {
+  Sha256 hash;
+  AddInPieces(hash, bytes);
+  return hash.Finish();
+}
 
 Sha256 BeginContent(Header header) {
   header.content = {};
@@ -93,15 +103,16 @@ class OpenFile {
     return plain ? std::uint64_t(status.st_size) : 0;
   }
 
-  // What cannot be read is left as it is: the digest finds it.
-  void Read(std::uint64_t offset, std::span<std::byte> to) const {
+  // False where not all is there.
+  bool Read(std::uint64_t offset, std::span<std::byte> to) const {
     while (!to.empty()) {
       const ssize_t count = ::pread(descriptor_, to.data(), to.size(), static_cast<off_t>(offset));
       if (count < 0 && errno == EINTR) continue;
-      if (count <= 0) return;
+      if (count <= 0) return false;
       offset += static_cast<std::uint64_t>(count);
       to = to.subspan(static_cast<std::size_t>(count));
     }
+    return true;
   }
 
  private:
@@ -110,16 +121,35 @@ class OpenFile {
 
 class CachedEnvironment final : public EnvironmentSource {
  public:
-  CachedEnvironment(const std::filesystem::path& picture, std::filesystem::path folder)
-      : name_(picture.string()), folder_(std::move(folder)), bytes_(ReadFileWhole(picture)) {
+  // A file passes through the processor's cache: memory for it would cost more time than its digest. A pipe is kept.
+  CachedEnvironment(std::filesystem::path picture, std::filesystem::path folder)
+      : picture_(std::move(picture)), folder_(std::move(folder)) {
+    std::error_code ignored;
+    const OpenFile file(std::filesystem::is_regular_file(picture_, ignored) ? picture_ : std::filesystem::path());
+    const std::uint64_t file_size = file.Size();
+    if (file_size == 0) {
+      bytes_ = ReadFileWhole(picture_);
+      digest_ = DigestOf(bytes_);
+      return;
+    }
     Sha256 hash;
-    AddInPieces(hash, bytes_, kAsItIs);
+    AddInPieces(hash, file_size, [&](std::size_t first, std::size_t size, Scratch& scratch) {
+      const auto piece = std::span(scratch).first(size);
+      if (!file.Read(first, piece)) throw Error(ErrorCode::NotFound, "cannot be read whole", picture_.string());
+      return std::span<const std::byte>(piece);
+    });
     digest_ = hash.Finish();
   }
 
   std::shared_ptr<const Image> Picture() const override {
     const FloatEnvironment pinned;
-    return std::make_shared<const Image>(DecodeImage(bytes_, name_));
+    if (!bytes_.empty()) return std::make_shared<const Image>(DecodeImage(bytes_, picture_.string()));
+    const std::vector<std::byte> bytes = ReadFileWhole(picture_);
+    // Otherwise another picture would be kept in its name.
+    if (DigestOf(bytes) != digest_) {
+      throw Error(ErrorCode::InvalidInput, "was changed while it was in use", picture_.string());
+    }
+    return std::make_shared<const Image>(DecodeImage(bytes, picture_.string()));
   }
 
   std::shared_ptr<const EnvironmentMap> Find(const EnvironmentOptions& options,
@@ -130,9 +160,8 @@ class CachedEnvironment final : public EnvironmentSource {
     if (file_size < sizeof(Header)) return nullptr;
     const Header expected{.key = key};
     Header header;
-    file.Read(0, std::as_writable_bytes(std::span(&header, 1)));
-    if (header.magic != expected.magic || header.byte_order != expected.byte_order || header.format != kFormat ||
-        header.key != key) {
+    if (!file.Read(0, std::as_writable_bytes(std::span(&header, 1))) || header.magic != expected.magic ||
+        header.byte_order != expected.byte_order || header.format != kFormat || header.key != key) {
       return nullptr;
     }
     // Sizes are bounded before they are trusted: the digest can be checked only when all is in memory.
@@ -154,8 +183,11 @@ class CachedEnvironment final : public EnvironmentSource {
     const auto read = [&](PageVector<float>& floats, std::size_t count) {
       floats.resize(count);
       const auto bytes = std::as_writable_bytes(std::span(floats));
-      AddInPieces(hash, bytes,
-                  [&](std::size_t first, std::size_t size) { file.Read(offset + first, bytes.subspan(first, size)); });
+      AddInPieces(hash, bytes.size(), [&](std::size_t first, std::size_t size, Scratch&) {
+        const auto piece = bytes.subspan(first, size);
+        if (!file.Read(offset + first, piece)) std::ranges::fill(piece, std::byte{0});  // the digest is another then
+        return std::span<const std::byte>(piece);
+      });
       offset += bytes.size();
     };
     read(map->texels, texel_count);
@@ -177,8 +209,8 @@ class CachedEnvironment final : public EnvironmentSource {
     header.repaired_values = map.repaired_values;
     const auto texels = std::as_bytes(std::span(map.texels)), picture = std::as_bytes(std::span(map.picture));
     Sha256 hash = BeginContent(header);
-    AddInPieces(hash, texels, kAsItIs);
-    AddInPieces(hash, picture, kAsItIs);
+    AddInPieces(hash, texels);
+    AddInPieces(hash, picture);
     header.content = hash.Finish();
     const std::string nothing_kept = "the prepared environment is not kept: ";
     std::error_code failure;
@@ -210,9 +242,8 @@ class CachedEnvironment final : public EnvironmentSource {
 
   std::filesystem::path PathOf(const Digest& key) const { return folder_ / (ToHex(key) + ".environment"); }
 
-  std::string name_;
-  std::filesystem::path folder_;
-  std::vector<std::byte> bytes_;
+  std::filesystem::path picture_, folder_;
+  std::vector<std::byte> bytes_;  // of what cannot be read twice
   Digest digest_;
 };
 

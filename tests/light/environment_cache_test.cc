@@ -137,6 +137,26 @@ TEST_F(EnvironmentCache, DoesNotDecode) {
   ExpectSameMap(*Find(), *map);
 }
 
+// What it is decoded from is what it was named by.
+TEST_F(EnvironmentCache, FilesThatChangeMeanwhileAreRefused) {
+  const auto source = Open();
+  Write(sky_, SkyFile(101));
+  EXPECT_EQ(CodeOf([&] { source->Picture(); }), ErrorCode::InvalidInput);
+}
+
+TEST_F(EnvironmentCache, PipesAreReadOnce) {
+  const auto map = Keep();
+  const fs::path pipe = folder_ / "pipe";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  std::thread writer([&] { Write(pipe, SkyFile()); });
+  const auto source = OpenEnvironment(pipe, cache_);
+  writer.join();
+  const auto found = source->Find(kOptions, [](std::uint64_t) {});
+  ASSERT_NE(found, nullptr);
+  ExpectSameMap(*found, *map);
+  EXPECT_EQ(source->Picture()->width, 16);
+}
+
 TEST_F(EnvironmentCache, DamageIsFoundAndMended) {
   const auto map = Keep();
   const fs::path entry = Entries().at(0);
