@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,8 @@
 #include "facet/scene.h"
 
 namespace facet {
+
+class EnvironmentSource;  // EnvironmentSettings::source of facet/render.h
 
 // An extension that a file names, and what becomes of it.
 struct ExtensionUse {
@@ -44,5 +47,13 @@ LoadedScene LoadGltf(const std::filesystem::path& path, const LoadOptions& optio
 
 // Loads a picture of any format that facet or OpenImageIO reads. Throws Error.
 Image LoadImage(const std::filesystem::path& path);
+
+// A picture for EnvironmentSettings::source that is decoded and prepared only where the folder `cache` does not hold
+// what an earlier frame, of any program, prepared from a file of the same bytes with the same settings: the same frame,
+// bit for bit, in less time. The folder is made when something is kept in it; where that fails, RenderStats::warnings
+// says so. What is kept is never removed; several programs may share it. Reads the file at once, and throws the Error
+// NotFound; frames throw what LoadImage() does.
+std::shared_ptr<const EnvironmentSource> OpenEnvironment(const std::filesystem::path& picture,
+                                                         const std::filesystem::path& cache);
 
 }  // namespace facet

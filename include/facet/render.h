@@ -18,7 +18,8 @@
 
 namespace facet {
 
-class FragmentShader;  // facet/shader.h
+class FragmentShader;     // facet/shader.h
+class EnvironmentSource;  // OpenEnvironment() of facet/load.h makes one
 
 // --- Camera ----------------------------------------------------------------------------------------------------------
 
@@ -56,6 +57,7 @@ struct EnvironmentSettings {
   enum class Kind : std::uint8_t { Studio, None, Image };
   Kind kind = Kind::Studio;
   std::shared_ptr<const Image> image;  // Kind::Image: 3 or 4 channels, any type
+  std::shared_ptr<const EnvironmentSource> source;  // Kind::Image where `image` is null: a file
   double rotation = 0.0;               // radians about +Y, counter-clockwise seen from above
   double intensity = 1.0;
 };

@@ -158,6 +158,11 @@ CLI::App& AddRender(CLI::App& program, RenderOptions& options) {
       [&](const std::string& text) { options.output = text; })
       ->required();
   AddRequest(app, options.request, options.load);
+  Add(app, "Quality and speed", "--cache", "DIR|none",
+      "Keep prepared environments in DIR, and take them\nfrom there; never changes the picture\n"
+      "[$FACET_CACHE, or none]",
+      [&](const std::string& text) { options.cache = text == "none" ? path() : path(text); })
+      ->envname("FACET_CACHE");
   AddMemoryLimit(app, options.request.settings);
   AddBound(app, options);
   AddMessages(app, options);

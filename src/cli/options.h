@@ -20,6 +20,7 @@ struct RenderOptions {
   std::filesystem::path input, output;
   RenderRequest request;
   LoadOptions load;
+  std::filesystem::path cache;  // of prepared environments; empty: none
   bool quiet = false;
   std::optional<bool> progress;  // none: when standard error is a terminal
   // With either bound the approximations are chosen from a report: a stored one, or one that is made first.

@@ -189,7 +189,7 @@ class Drawing {
     stats_.load_seconds = stage_.Lap();
     stats_.input_bytes = loaded_.report.file_bytes;
     PrintWarnings(loaded_.report.warnings, options_.quiet);
-    settings_ = ResolveRequest(request_, loaded_.scene);
+    settings_ = ResolveRequest(request_, loaded_.scene, {}, options_.cache);
     stats_.environment_seconds = stage_.Lap();
   }
 

@@ -132,14 +132,20 @@ void WriteFileWhole(const std::filesystem::path& path, const std::function<void(
 }
 
 void WriteFileWhole(const std::filesystem::path& path, std::span<const std::byte> bytes) {
+  WriteFileWhole(path, std::initializer_list{bytes});
+}
+
+void WriteFileWhole(const std::filesystem::path& path, std::initializer_list<std::span<const std::byte>> parts) {
   WriteFileWhole(path, [&](const std::filesystem::path& temporary) {
     File file(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
     if (file.get() < 0) FailOutput(path, errno);
-    for (std::size_t done = 0; done < bytes.size();) {
-      const ssize_t count = ::write(file.get(), bytes.data() + done, bytes.size() - done);
-      if (count < 0 && errno == EINTR) continue;
-      if (count <= 0) FailOutput(path, count < 0 ? errno : EIO);
-      done += static_cast<std::size_t>(count);
+    for (std::span<const std::byte> left : parts) {
+      while (!left.empty()) {
+        const ssize_t count = ::write(file.get(), left.data(), left.size());
+        if (count < 0 && errno == EINTR) continue;
+        if (count <= 0) FailOutput(path, count < 0 ? errno : EIO);
+        left = left.subspan(static_cast<std::size_t>(count));
+      }
     }
     if (!file.Close()) FailOutput(path, errno);
   });

@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <functional>
+#include <initializer_list>
 #include <map>
 #include <memory>
 #include <span>
@@ -83,8 +84,9 @@ std::map<std::string, std::string> ReadPngText(std::span<const std::byte> bytes,
 // all, and an existing file stays as it was when anything fails. Throws what `write` throws, or Error(OutputFailed).
 void WriteFileWhole(const std::filesystem::path& path, const std::function<void(const std::filesystem::path&)>& write);
 
-// The same for bytes in memory.
+// The same for bytes in memory, and for such that follow one another in the file.
 void WriteFileWhole(const std::filesystem::path& path, std::span<const std::byte> bytes);
+void WriteFileWhole(const std::filesystem::path& path, std::initializer_list<std::span<const std::byte>> parts);
 
 // The bytes of a file. Throws Error: NotFound (no such file, a folder, or no permission), OutOfMemory.
 std::vector<std::byte> ReadFileWhole(const std::filesystem::path& path);

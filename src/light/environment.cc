@@ -276,7 +276,7 @@ std::int32_t SharpestLevelSize(std::int32_t picture_width, std::int32_t max_size
   return base;
 }
 
-void LayOutLevels(std::int32_t base, EnvironmentMap& map) {
+std::size_t PlaceLevels(std::int32_t base, EnvironmentMap& map) {
   std::int32_t floats = 0;
   const auto place = [&floats](std::int32_t size) {
     const Level level{size, floats};
@@ -289,7 +289,11 @@ void LayOutLevels(std::int32_t base, EnvironmentMap& map) {
     map.level_size[k] = static_cast<float>(map.levels[k].size);
   }
   map.irradiance = place(EnvironmentMap::kIrradianceSize);
-  map.texels.assign(std::size_t(floats), 0.0f);
+  return std::size_t(floats);
+}
+
+void LayOutLevels(std::int32_t base, EnvironmentMap& map) {
+  map.texels.assign(PlaceLevels(base, map), 0.0f);
   map.texel_data = map.texels.data();
 }
 

@@ -82,4 +82,11 @@ std::int32_t SharpestLevelSize(std::int32_t picture_width, std::int32_t max_size
 // all black.
 void LayOutLevels(std::int32_t base, EnvironmentMap& map);
 
+// The same without texels; returns how many floats they are.
+std::size_t PlaceLevels(std::int32_t base, EnvironmentMap& map);
+
+// To be raised with every change to PrefilterEnvironment(), the arithmetic below it, or a decoder of pictures that
+// changes a bit of any map: what was kept by another number is not used. A test fails when the bits change.
+inline constexpr std::uint32_t kEnvironmentArithmetic = 1;
+
 }  // namespace facet

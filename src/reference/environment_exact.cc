@@ -5,6 +5,7 @@
 
 #include "base/parallel.h"
 #include "image/convert.h"
+#include "light/environment_source.h"
 #include "light/studio.h"
 #include "math/elementary.h"
 
@@ -38,8 +39,9 @@ Found FindIn(const double* sums, int count, double value) {
 ExactEnvironment::ExactEnvironment(const EnvironmentSettings& settings)
     : cosine_(Cos(settings.rotation)), sine_(Sin(settings.rotation)), intensity_(settings.intensity) {
   const bool is_studio = settings.kind == EnvironmentSettings::Kind::Studio;
-  if (!is_studio) CheckImage(*settings.image, "environment");
-  const Image linear = ToLinearRgb32F(is_studio ? StudioPicture(kStudioWidth, kStudioHeight) : *settings.image);
+  const auto picture = is_studio ? nullptr : PictureOf(settings);
+  if (!is_studio) CheckImage(*picture, "environment");
+  const Image linear = ToLinearRgb32F(is_studio ? StudioPicture(kStudioWidth, kStudioHeight) : *picture);
   width_ = linear.width;
   height_ = linear.height;
   rgb_.assign(linear.As<float>(), linear.As<float>() + linear.PixelCount() * 3);

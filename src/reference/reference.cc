@@ -44,9 +44,10 @@ void CheckSettings(const RenderSettings& settings, const ReferenceSettings& refe
   CheckRange("a target error", reference.target_error, 0, kInfinity);
   CheckRange("a time budget", reference.time_budget, 0, kInfinity);
   CheckRange("a time to give up after", reference.give_up_after, 0, kInfinity);
-  if (settings.environment.kind == EnvironmentSettings::Kind::Image && settings.environment.image == nullptr) {
+  if (settings.environment.kind == EnvironmentSettings::Kind::Image && settings.environment.image == nullptr &&
+      settings.environment.source == nullptr) {
     throw Error(ErrorCode::InvalidUsage, "no environment picture", "reference settings",
-                "set environment.image or another environment.kind");
+                "set environment.image, environment.source or another environment.kind");
   }
   if (settings.shader != nullptr) {
     throw Error(ErrorCode::InvalidUsage, "a fragment shader of one's own", "reference settings",

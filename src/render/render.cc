@@ -13,6 +13,7 @@
 #include "facet/shader.h"
 #include "facet/shader/dispatch.h"
 #include "frame/constants.h"
+#include "light/environment_source.h"
 #include "light/studio.h"
 #include "plan/frame_plan.h"
 #include "render/frame_view.h"
@@ -76,8 +77,9 @@ void CheckSettings(const RenderSettings& s) {
   if (!(s.environment.intensity >= 0.0 && s.environment.intensity <= 1e30)) {
     Refuse("an environment intensity of " + std::to_string(s.environment.intensity), "0 to 1e30 are accepted");
   }
-  if (s.environment.kind == EnvironmentSettings::Kind::Image && s.environment.image == nullptr) {
-    Refuse("no environment picture", "set environment.image or another environment.kind");
+  if (s.environment.kind == EnvironmentSettings::Kind::Image && s.environment.image == nullptr &&
+      s.environment.source == nullptr) {
+    Refuse("no environment picture", "set environment.image, environment.source or another environment.kind");
   }
 }
 
@@ -92,11 +94,30 @@ std::size_t BytesOf(const Primitives& primitives) {
   return bytes;
 }
 
-// Of the environment's picture, its copies in linear light, and its maps.
-std::size_t ExpectedBytes(const Image& picture, const EnvironmentOptions& options) {
+// The environment's picture, its copies in linear light, and its maps.
+void Count(const Image& picture, const EnvironmentOptions& options, MemoryBudget& budget) {
   const auto size = std::size_t(SharpestLevelSize(picture.width, options.max_size));
   const std::size_t floats = picture.PixelCount() * (options.keep_picture ? 2 : 1) + 3 * size * size;
-  return picture.bytes.size() + floats * 4 * sizeof(float);
+  budget.Add(picture.bytes.size() + floats * 4 * sizeof(float),
+             "an environment of " + std::to_string(picture.width) + " x " + std::to_string(picture.height) + " pixels",
+             "scale it down");
+}
+
+std::size_t BytesOf(const EnvironmentMap& map) { return (map.texels.size() + map.picture.size()) * sizeof(float); }
+
+void CountPrepared(std::uint64_t bytes, MemoryBudget& budget) {
+  budget.Add(bytes, "a prepared environment", "scale its picture down");
+}
+
+std::shared_ptr<const EnvironmentMap> FromSource(const EnvironmentSource& source, const EnvironmentOptions& options,
+                                                 MemoryBudget& budget, std::vector<std::string>& warnings) {
+  if (auto kept = source.Find(options, [&](std::uint64_t bytes) { CountPrepared(bytes, budget); })) return kept;
+  const auto picture = source.Picture();
+  Count(*picture, options, budget);
+  auto map = PrefilterEnvironment(*picture, options);
+  const std::string warning = source.Keep(options, *map);
+  if (!warning.empty()) warnings.push_back(warning);
+  return map;
 }
 
 }  // namespace
@@ -177,18 +198,22 @@ class Renderer::Frames {
     if (!plan.environment_light && !plan.environment_background) return nullptr;
     const EnvironmentOptions options{plan.environment_background, settings.environment_size,
                                      settings.environment_samples, settings.irradiance};
-    const auto picture = settings.environment.kind == EnvironmentSettings::Kind::Image ? settings.environment.image
-                                                                                       : nullptr;  // the studio
-    if (picture != nullptr) {
-      const std::string size = std::to_string(picture->width) + " x " + std::to_string(picture->height);
-      budget.Add(ExpectedBytes(*picture, options), "an environment of " + size + " pixels", "scale it down");
-    }
-    if (environment_ == nullptr || options != environment_options_ || picture != environment_picture_) {
-      environment_ = picture != nullptr ? PrefilterEnvironment(*picture, options) : StudioEnvironment(options);
+    const bool is_picture = settings.environment.kind == EnvironmentSettings::Kind::Image;  // otherwise the studio
+    const auto image = is_picture ? settings.environment.image : nullptr;
+    const auto source = is_picture && image == nullptr ? settings.environment.source : nullptr;
+    const bool known = environment_ != nullptr && options == environment_options_ && image == environment_image_ &&
+                       source == environment_source_;
+    if (image != nullptr) Count(*image, options, budget);
+    if (known && source != nullptr) CountPrepared(BytesOf(*environment_), budget);
+    if (!known) {
+      environment_ = image != nullptr    ? PrefilterEnvironment(*image, options)
+                     : source != nullptr ? FromSource(*source, options, budget, stats.warnings)
+                                         : StudioEnvironment(options);
       environment_options_ = options;
-      environment_picture_ = picture;
+      environment_image_ = image;
+      environment_source_ = source;
     }
-    stats.environment_bytes = (environment_->texels.size() + environment_->picture.size()) * sizeof(float);
+    stats.environment_bytes = BytesOf(*environment_);
     stats.environment_size = environment_->levels[0].size;
     if (environment_->repaired_values > 0) {
       stats.warnings.push_back("environment: " + std::to_string(environment_->repaired_values) +
@@ -203,7 +228,8 @@ class Renderer::Frames {
   FrameGeometry geometry_;
   FrameTextures textures_;
   EnvironmentOptions environment_options_;
-  std::shared_ptr<const Image> environment_picture_;  // held, so that no other picture can take its place in memory
+  std::shared_ptr<const Image> environment_image_;  // held, so that no other can take its place in memory
+  std::shared_ptr<const EnvironmentSource> environment_source_;
   std::shared_ptr<const EnvironmentMap> environment_;
 };
 

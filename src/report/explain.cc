@@ -7,6 +7,7 @@
 
 #include "base/parallel.h"
 #include "facet/version.h"
+#include "light/environment_source.h"
 #include "plan/frame_plan.h"
 #include "report/render_request.h"
 #include "scene/camera.h"
@@ -223,7 +224,8 @@ std::string EnvironmentName(const EnvironmentSettings& environment) {
     case EnvironmentSettings::Kind::Studio: return "studio";
     case EnvironmentSettings::Kind::Image: break;
   }
-  return std::to_string(environment.image->width) + "x" + std::to_string(environment.image->height);
+  const auto picture = PictureOf(environment);
+  return std::to_string(picture->width) + "x" + std::to_string(picture->height);
 }
 
 }  // namespace

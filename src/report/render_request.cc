@@ -11,6 +11,7 @@
 #include "base/printable.h"
 #include "facet/error.h"
 #include "image/probe.h"
+#include "light/environment_source.h"
 #include "light/studio.h"
 #include "render/memory_budget.h"
 
@@ -185,7 +186,7 @@ std::vector<std::string> Names(const std::vector<T>& things) {
 }
 
 // Refuses a picture whose first bytes say that it is beyond the limit.
-Image LoadEnvironment(const std::filesystem::path& path, std::uint64_t memory_limit) {
+void CheckEnvironment(const std::filesystem::path& path, std::uint64_t memory_limit) {
   if (memory_limit > 0 && std::filesystem::is_regular_file(path)) {  // a pipe is read once
     std::vector<char> start(std::size_t{1} << 20);
     std::ifstream file(path, std::ios::binary);
@@ -198,7 +199,6 @@ Image LoadEnvironment(const std::filesystem::path& path, std::uint64_t memory_li
              "an environment of " + std::to_string(header.width) + " x " + std::to_string(header.height) + " pixels",
              "scale it down");
   }
-  return LoadImage(path);
 }
 
 CameraChoice PlacedCamera(const RenderRequest& request, const Scene& scene) {
@@ -260,7 +260,8 @@ void RefuseContradictions(const RenderRequest& request) {
   }
 }
 
-RenderSettings ResolveRequest(const RenderRequest& request, const Scene& scene, const std::filesystem::path& base) {
+RenderSettings ResolveRequest(const RenderRequest& request, const Scene& scene, const std::filesystem::path& base,
+                              const std::filesystem::path& cache) {
   RenderSettings settings = request.settings;
   if (request.scene) settings.scene = Choose("--scene", "scene", *request.scene, Names(scene.scenes));
   settings.camera = PlacedCamera(request, scene);
@@ -270,8 +271,13 @@ RenderSettings ResolveRequest(const RenderRequest& request, const Scene& scene, 
   }
   if (request.variant) settings.variant = Choose("--variant", "variant", *request.variant, scene.variants);
   if (request.environment) {
-    settings.environment.image =
-        std::make_shared<const Image>(LoadEnvironment(base / *request.environment, settings.memory_limit));
+    const std::filesystem::path path = base / *request.environment;
+    CheckEnvironment(path, settings.memory_limit);
+    if (cache.empty()) {
+      settings.environment.image = std::make_shared<const Image>(LoadImage(path));
+    } else {
+      settings.environment.source = OpenEnvironment(path, cache);
+    }
   }
   return settings;
 }
@@ -290,7 +296,7 @@ std::optional<Digest> HashEnvironment(const EnvironmentSettings& environment) {
     case EnvironmentSettings::Kind::Studio: return HashImage(StudioPicture(kStudioWidth, kStudioHeight));
     case EnvironmentSettings::Kind::Image: break;
   }
-  return HashImage(*environment.image);
+  return HashImage(*PictureOf(environment));
 }
 
 }  // namespace facet

@@ -65,9 +65,10 @@ std::map<std::string, std::string> SpelledOut(const RenderRequest& request);
 void RefuseContradictions(const RenderRequest& request);
 
 // The settings for a scene: names become indices, and the environment's picture is loaded (a relative path: from
-// `base`).
+// `base`), or opened where there is a `cache` for what is prepared from it.
 // Throws Error: InvalidUsage for names that the scene does not have; what LoadImage throws.
-RenderSettings ResolveRequest(const RenderRequest& request, const Scene& scene, const std::filesystem::path& base = {});
+RenderSettings ResolveRequest(const RenderRequest& request, const Scene& scene, const std::filesystem::path& base = {},
+                              const std::filesystem::path& cache = {});
 
 // A scene and its settings, ready for Render().
 struct RenderInputs {

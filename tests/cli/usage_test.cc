@@ -60,6 +60,7 @@ TEST(FacetHelp, NamesEveryOptionAsTheManualDoes) {
                              "--environment-samples",
                              "--irradiance",
                              "--tile-size",
+                             "--cache",
                              "--max-error",
                              "--max-time",
                              "--report",

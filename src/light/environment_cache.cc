@@ -1,0 +1,257 @@
+// Prepared environments as files of a folder: OpenEnvironment() of facet/load.h.
+//
+// A file's name is the digest of all that decides over its bits, so that it never has to be changed; its own digest
+// stands in it, so that one that was cut off or damaged is not taken for whole. It is a Header, then the texels of the
+// map, then those of the picture where that is kept: floats as they lie in memory.
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cerrno>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <system_error>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "base/float_environment.h"
+#include "base/parallel.h"
+#include "base/sha256.h"
+#include "facet/error.h"
+#include "facet/load.h"
+#include "facet/version.h"
+#include "image/codec.h"
+#include "light/environment_source.h"
+
+namespace facet {
+namespace {
+
+constexpr std::uint32_t kFormat = 1;  // of the files
+
+struct Header {
+  std::array<char, 16> magic = {'f', 'a', 'c', 'e', 't', ' ', 'l', 'i', 'g', 'h', 't', ' ', 'm', 'a', 'p', '\n'};
+  std::uint32_t byte_order = 0x01020304;
+  std::uint32_t format = kFormat;
+  Digest key{};
+  std::int32_t size = 0;  // texels along the sharpest level
+  std::int32_t picture_width = 0, picture_height = 0;
+  std::int32_t zero = 0;
+  std::uint64_t repaired_values = 0;
+  Digest content{};  // of the other fields and the floats
+};
+static_assert(sizeof(Header) == 112 && std::has_unique_object_representations_v<Header>, "no padding");
+
+constexpr std::size_t kPiece = std::size_t{64} << 10;
+using Scratch = std::array<std::byte, kPiece>;
+
+// The digests of pieces are digested: they can be made, and a file be read, on all threads. get(first, size, scratch)
+// gives a piece, which may lie in `scratch`.
+template <class Get>
+void AddInPieces(Sha256& hash, std::size_t size, const Get& get) {
+  std::vector<Digest> pieces((size + kPiece - 1) / kPiece);
+  ParallelFor(pieces.size(), 1, [&](std::size_t begin, std::size_t end) {
+    Scratch scratch;
+    for (std::size_t i = begin; i < end; ++i) {
+      Sha256 of_piece;
+      of_piece.Add(get(i * kPiece, std::min(kPiece, size - i * kPiece), scratch));
+      pieces[i] = of_piece.Finish();
+    }
+  });
+  hash.Add(std::uint64_t(size));
+  hash.AddArray(pieces);
+}
+
+void AddInPieces(Sha256& hash, std::span<const std::byte> bytes) {
+  AddInPieces(hash, bytes.size(),
+              [&](std::size_t first, std::size_t size, Scratch&) { return bytes.subspan(first, size); });
+}
+
+Digest DigestOf(std::span<const std::byte> bytes) {
+  Sha256 hash;
+  AddInPieces(hash, bytes);
+  return hash.Finish();
+}
+
+Sha256 BeginContent(Header header) {
+  header.content = {};
+  Sha256 hash;
+  hash.Add(std::as_bytes(std::span(&header, 1)));
+  return hash;
+}
+
+class OpenFile {
+ public:
+  // Not blocking: a pipe of that name is no entry, and nobody may ever write to it.
+  explicit OpenFile(const std::filesystem::path& path)
+      : descriptor_(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {}
+  ~OpenFile() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+  }
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+
+  // None for what is no plain file.
+  std::uint64_t Size() const {
+    struct stat status {};
+    const bool plain = descriptor_ >= 0 && ::fstat(descriptor_, &status) == 0 && S_ISREG(status.st_mode);
+    return plain ? std::uint64_t(status.st_size) : 0;
+  }
+
+  // False where not all is there.
+  bool Read(std::uint64_t offset, std::span<std::byte> to) const {
+    while (!to.empty()) {
+      const ssize_t count = ::pread(descriptor_, to.data(), to.size(), static_cast<off_t>(offset));
+      if (count < 0 && errno == EINTR) continue;
+      if (count <= 0) return false;
+      offset += static_cast<std::uint64_t>(count);
+      to = to.subspan(static_cast<std::size_t>(count));
+    }
+    return true;
+  }
+
+ private:
+  int descriptor_;
+};
+
+class CachedEnvironment final : public EnvironmentSource {
+ public:
+  // A file passes through the processor's cache: memory for it would cost more time than its digest. A pipe is kept.
+  CachedEnvironment(std::filesystem::path picture, std::filesystem::path folder)
+      : picture_(std::move(picture)), folder_(std::move(folder)) {
+    std::error_code ignored;
+    const OpenFile file(std::filesystem::is_regular_file(picture_, ignored) ? picture_ : std::filesystem::path());
+    const std::uint64_t file_size = file.Size();
+    if (file_size == 0) {
+      bytes_ = ReadFileWhole(picture_);
+      digest_ = DigestOf(bytes_);
+      return;
+    }
+    Sha256 hash;
+    AddInPieces(hash, file_size, [&](std::size_t first, std::size_t size, Scratch& scratch) {
+      const auto piece = std::span(scratch).first(size);
+      if (!file.Read(first, piece)) throw Error(ErrorCode::NotFound, "cannot be read whole", picture_.string());
+      return std::span<const std::byte>(piece);
+    });
+    digest_ = hash.Finish();
+  }
+
+  std::shared_ptr<const Image> Picture() const override {
+    const FloatEnvironment pinned;
+    if (!bytes_.empty()) return std::make_shared<const Image>(DecodeImage(bytes_, picture_.string()));
+    const std::vector<std::byte> bytes = ReadFileWhole(picture_);
+    // Otherwise another picture would be kept in its name.
+    if (DigestOf(bytes) != digest_) {
+      throw Error(ErrorCode::InvalidInput, "was changed while it was in use", picture_.string());
+    }
+    return std::make_shared<const Image>(DecodeImage(bytes, picture_.string()));
+  }
+
+  std::shared_ptr<const EnvironmentMap> Find(const EnvironmentOptions& options,
+                                             const std::function<void(std::uint64_t)>& admit) const override {
+    const Digest key = KeyOf(options);
+    const OpenFile file(PathOf(key));
+    const std::uint64_t file_size = file.Size();
+    if (file_size < sizeof(Header)) return nullptr;
+    const Header expected{.key = key};
+    Header header;
+    if (!file.Read(0, std::as_writable_bytes(std::span(&header, 1))) || header.magic != expected.magic ||
+        header.byte_order != expected.byte_order || header.format != kFormat || header.key != key) {
+      return nullptr;
+    }
+    // Sizes are bounded before they are trusted: the digest can be checked only when all is in memory.
+    const auto side_ok = [](std::int32_t side) { return side >= 1 && side <= kMaxImageSide; };
+    const bool size_ok =
+        header.size >= 1 && header.size <= options.max_size && std::has_single_bit(unsigned(header.size));
+    const bool picture_ok = options.keep_picture ? side_ok(header.picture_width) && side_ok(header.picture_height)
+                                                 : header.picture_width == 0 && header.picture_height == 0;
+    if (!size_ok || !picture_ok) return nullptr;
+    auto map = std::make_shared<EnvironmentMap>();
+    const std::size_t texel_count = PlaceLevels(header.size, *map);
+    const std::size_t picture_count = std::size_t(header.picture_width) * std::size_t(header.picture_height) * 4;
+    const std::uint64_t float_bytes = std::uint64_t(texel_count + picture_count) * sizeof(float);
+    if (file_size != sizeof(Header) + float_bytes) return nullptr;
+    admit(float_bytes);
+
+    Sha256 hash = BeginContent(header);
+    std::uint64_t offset = sizeof(Header);
+    const auto read = [&](PageVector<float>& floats, std::size_t count) {
+      floats.resize(count);
+      const auto bytes = std::as_writable_bytes(std::span(floats));
+      AddInPieces(hash, bytes.size(), [&](std::size_t first, std::size_t size, Scratch&) {
+        const auto piece = bytes.subspan(first, size);
+        if (!file.Read(offset + first, piece)) std::ranges::fill(piece, std::byte{0});  // the digest is another then
+        return std::span<const std::byte>(piece);
+      });
+      offset += bytes.size();
+    };
+    read(map->texels, texel_count);
+    read(map->picture, picture_count);
+    if (hash.Finish() != header.content) return nullptr;
+    map->texel_data = map->texels.data();
+    if (options.keep_picture) map->picture_data = map->picture.data();
+    map->picture_width = header.picture_width;
+    map->picture_height = header.picture_height;
+    map->repaired_values = std::size_t(header.repaired_values);
+    return map;
+  }
+
+  std::string Keep(const EnvironmentOptions& options, const EnvironmentMap& map) const override {
+    Header header{.key = KeyOf(options)};
+    header.size = map.levels[0].size;
+    header.picture_width = map.picture_width;
+    header.picture_height = map.picture_height;
+    header.repaired_values = map.repaired_values;
+    const auto texels = std::as_bytes(std::span(map.texels)), picture = std::as_bytes(std::span(map.picture));
+    Sha256 hash = BeginContent(header);
+    AddInPieces(hash, texels);
+    AddInPieces(hash, picture);
+    header.content = hash.Finish();
+    const std::string nothing_kept = "the prepared environment is not kept: ";
+    std::error_code failure;
+    std::filesystem::create_directories(folder_, failure);
+    if (failure) return nothing_kept + folder_.string() + ": cannot be made: " + failure.message();
+    try {
+      WriteFileWhole(PathOf(header.key), {std::as_bytes(std::span(&header, 1)), texels, picture});
+    } catch (const Error& error) {
+      return nothing_kept + error.what();
+    }
+    return {};
+  }
+
+ private:
+  Digest KeyOf(const EnvironmentOptions& options) const {
+    // By name, so that a further option is not forgotten here: it would not compile.
+    const auto& [keep_picture, max_size, samples, irradiance] = options;
+    Sha256 hash;
+    hash.Add(Version());
+    hash.Add(kFormat);
+    hash.Add(kEnvironmentArithmetic);
+    hash.Add(std::as_bytes(std::span(digest_.bytes)));
+    hash.Add(keep_picture);
+    hash.Add(max_size);
+    hash.Add(samples);
+    hash.Add(irradiance);
+    return hash.Finish();
+  }
+
+  std::filesystem::path PathOf(const Digest& key) const { return folder_ / (ToHex(key) + ".environment"); }
+
+  std::filesystem::path picture_, folder_;
+  std::vector<std::byte> bytes_;  // of what cannot be read twice
+  Digest digest_;
+};
+
+}  // namespace
+
+std::shared_ptr<const EnvironmentSource> OpenEnvironment(const std::filesystem::path& picture,
+                                                         const std::filesystem::path& cache) {
+  return std::make_shared<const CachedEnvironment>(picture, cache);
+}
+
+}  // namespace facet
