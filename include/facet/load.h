@@ -52,7 +52,7 @@ Image LoadImage(const std::filesystem::path& path);
 // what an earlier frame, of any program, prepared from a file of the same bytes with the same settings: the same frame,
 // bit for bit, in less time. The folder is made when something is kept in it; where that fails, RenderStats::warnings
 // says so. What is kept is never removed; several programs may share it. Reads the file at once, and throws the Error
-// NotFound; frames throw what LoadImage() does.
+// NotFound; it must stay as it is: frames throw what LoadImage() does, and InvalidInput where it was changed.
 std::shared_ptr<const EnvironmentSource> OpenEnvironment(const std::filesystem::path& picture,
                                                          const std::filesystem::path& cache);
 

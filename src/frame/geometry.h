@@ -81,7 +81,7 @@ struct TriangleRecord {
 struct TriangleChunk {
   std::uint32_t drawable = 0;
   std::uint32_t first_primitive = 0, primitive_count = 0;
-  std::vector<TriangleRecord> records;
+  std::vector<TriangleRecord> records;  // after binning in the order in which tiles read them, no longer as drawn
   // Records by tile: tile tiles[i] holds entries [begin[i], begin[i + 1]) of `entries`, each an index into `records`.
   std::vector<std::uint32_t> tiles, begin, entries;
   std::uint64_t culled = 0, clipped = 0;

@@ -86,7 +86,8 @@ void LayOutLevels(std::int32_t base, EnvironmentMap& map);
 std::size_t PlaceLevels(std::int32_t base, EnvironmentMap& map);
 
 // To be raised with every change to PrefilterEnvironment(), the arithmetic below it, or a decoder of pictures that
-// changes a bit of any map: what was kept by another number is not used. A test fails when the bits change.
+// changes a bit of any map: what was kept by another number is not used. A test fails when the bits change that the
+// preparation of a float picture has.
 inline constexpr std::uint32_t kEnvironmentArithmetic = 1;
 
 }  // namespace facet

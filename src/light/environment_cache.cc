@@ -165,11 +165,14 @@ class CachedEnvironment final : public EnvironmentSource {
       return nullptr;
     }
     // Sizes are bounded before they are trusted: the digest can be checked only when all is in memory.
-    const auto side_ok = [](std::int32_t side) { return side >= 1 && side <= kMaxImageSide; };
+    const std::int32_t width = header.picture_width, height = header.picture_height;
     const bool size_ok =
-        header.size >= 1 && header.size <= options.max_size && std::has_single_bit(unsigned(header.size));
-    const bool picture_ok = options.keep_picture ? side_ok(header.picture_width) && side_ok(header.picture_height)
-                                                 : header.picture_width == 0 && header.picture_height == 0;
+        header.size >= 64 && header.size <= options.max_size && std::has_single_bit(unsigned(header.size));
+    // One row is kept as two.
+    const bool picture_ok = options.keep_picture ? width >= 1 && width <= kMaxImageSide && height >= 2 &&
+                                                       height <= kMaxImageSide &&
+                                                       std::uint64_t(width) * std::uint64_t(height) <= kMaxImagePixels
+                                                 : width == 0 && height == 0;
     if (!size_ok || !picture_ok) return nullptr;
     auto map = std::make_shared<EnvironmentMap>();
     const std::size_t texel_count = PlaceLevels(header.size, *map);
@@ -216,6 +219,11 @@ class CachedEnvironment final : public EnvironmentSource {
     std::error_code failure;
     std::filesystem::create_directories(folder_, failure);
     if (failure) return nothing_kept + folder_.string() + ": cannot be made: " + failure.message();
+    // Nothing is written through a link or into a pipe that somebody put there.
+    const auto place = std::filesystem::symlink_status(PathOf(header.key), failure).type();
+    if (place != std::filesystem::file_type::not_found && place != std::filesystem::file_type::regular) {
+      return nothing_kept + PathOf(header.key).string() + ": cannot be written: it is no file";
+    }
     try {
       WriteFileWhole(PathOf(header.key), {std::as_bytes(std::span(&header, 1)), texels, picture});
     } catch (const Error& error) {

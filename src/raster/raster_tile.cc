@@ -180,7 +180,7 @@ HWY_INLINE void VisitCoverage(const TriangleRecord& r, const TileBuffers& tile, 
 
 template <int kSamples>
 HWY_INLINE void Draw(const TileTriangles& triangles, TileBuffers& tile) {
-  constexpr std::size_t kAhead = 8;  // records lie scattered in memory
+  constexpr std::size_t kAhead = 8;  // records, which lie in order only within a chunk
   for (std::size_t t = 0; t < triangles.count; ++t) {
     if (t + kAhead < triangles.count) PrefetchRecord(*triangles.records[t + kAhead]);
     const Int number(triangles.numbers[t]);

@@ -111,7 +111,11 @@ void CountPrepared(std::uint64_t bytes, MemoryBudget& budget) {
 
 std::shared_ptr<const EnvironmentMap> FromSource(const EnvironmentSource& source, const EnvironmentOptions& options,
                                                  MemoryBudget& budget, std::vector<std::string>& warnings) {
-  if (auto kept = source.Find(options, [&](std::uint64_t bytes) { CountPrepared(bytes, budget); })) return kept;
+  MemoryBudget with_kept = budget;  // what is found but is of no use takes no memory
+  if (auto kept = source.Find(options, [&](std::uint64_t bytes) { CountPrepared(bytes, with_kept); })) {
+    budget = with_kept;
+    return kept;
+  }
   const auto picture = source.Picture();
   Count(*picture, options, budget);
   auto map = PrefilterEnvironment(*picture, options);

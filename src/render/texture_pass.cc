@@ -46,7 +46,7 @@ void CheckSizes(const Scene& scene, const std::vector<bool>& needed, TexelBits t
     if (header.width > kMaxSide || header.height > kMaxSide || double(header.width) * header.height > kMaxTexels) {
       throw Error(ErrorCode::OutOfMemory,
                   "a texture of " + size + " texels needs " + BytesText(bytes) + ", and the limit is " +
-                      std::to_string(kMaxSide) + " a side and " + BytesText(kMaxTexels * 32.0 / 3.0) + " in all",
+                      std::to_string(kMaxSide) + " a side and 2^27 texels in all",
                   source.Name(), "scale the image down");
     }
     sum += bytes;
@@ -67,8 +67,14 @@ Image WhitePixel() { return {1, 1, 4, ChannelType::U8, Encoding::Srgb, std::vect
 void DecodeTextures(const Scene& scene, const std::vector<bool>& material_visible, TexelBits texels, FramePlan& plan,
                     FrameTextures& textures, MemoryBudget& budget, RenderStats& stats) {
   if (textures.planned != plan.textures || textures.texels != texels) {
-    textures = {plan.textures, texels, {}};
-    textures.entries.resize(plan.textures.size());
+    FrameTextures now{plan.textures, texels, {}};
+    now.entries.resize(plan.textures.size());
+    for (std::size_t t = 0; t < now.entries.size() && textures.texels == texels; ++t) {
+      const auto known = std::find(textures.planned.begin(), textures.planned.end(), plan.textures[t]);
+      if (known == textures.planned.end()) continue;
+      now.entries[t] = std::move(textures.entries[std::size_t(known - textures.planned.begin())]);
+    }
+    textures = std::move(now);
   }
   std::vector<bool> needed(plan.textures.size(), false);
   for (std::size_t m = 0; m < plan.materials.size(); ++m) {

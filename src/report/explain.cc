@@ -180,7 +180,7 @@ class Measurement {
   // Of the pose and the textures, where they are others without the feature.
   double MeasurePreparation(const Ablation& ablation, const RenderStats& prepared) {
     const bool other_pose = PoseOf(ablation.settings) != PoseOf(settings_);
-    const bool other_textures = prepared.textures.size() != prepared_.textures.size();
+    const bool other_textures = prepared.texture_bytes != prepared_.texture_bytes;
     if (!other_pose && !other_textures) return 0.0;
     const auto seconds = [&](const RenderSettings& settings) {
       Renderer renderer(scene_);

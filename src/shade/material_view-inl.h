@@ -109,7 +109,8 @@ class MaterialView {
 
   HWY_INLINE bool Lit() const { return m_.Has(kLit); }
 
-  // Factor times texture times vertex colour, straight alpha. Linear.
+  // Factor times texture times vertex colour, straight alpha. Linear. An opaque material's texture has no alpha: glTF
+  // ignores it, and it is not kept unless another material reads it.
   HWY_INLINE Vec4<T> BaseColor(const Surface<T>& s) const {
     TextureReader<T> own(s);
     TextureReader<T>& textures = ReaderOf(s, own);
@@ -120,7 +121,7 @@ class MaterialView {
     TextureReader<T> own(s);
     TextureReader<T>& textures = ReaderOf(s, own);
     T alpha = T(m_.base_color[3]) * s.color.w;
-    if (m_.Has(kBaseColorTexture)) alpha = alpha * textures.template Read<kA>(m_.base_color_texture).w;
+    if (ReadsAlpha()) alpha = alpha * textures.template Read<kA>(m_.base_color_texture).w;
     return alpha;
   }
 
@@ -168,11 +169,15 @@ class MaterialView {
     return ahead_ != nullptr && ahead_->IsOf(s) ? *ahead_ : own;
   }
 
+  HWY_INLINE bool ReadsAlpha() const { return m_.Has(kBaseColorTexture) && m_.alpha_mode != AlphaMode::Opaque; }
+
   HWY_INLINE Vec4<T> BaseColor(const Surface<T>& s, TextureReader<T>& textures) const {
     Vec4<T> c{T(m_.base_color[0]) * s.color.x, T(m_.base_color[1]) * s.color.y, T(m_.base_color[2]) * s.color.z,
               T(m_.base_color[3]) * s.color.w};
-    if (m_.Has(kBaseColorTexture)) c = c * textures.template Read<kRgba>(m_.base_color_texture);
-    return c;
+    if (!m_.Has(kBaseColorTexture)) return c;
+    Vec4<T> texel = textures.template Read<kRgba>(m_.base_color_texture);
+    if (!ReadsAlpha()) texel.w = T(1.0f);
+    return c * texel;
   }
 
   HWY_INLINE Vec3<T> Normal(const Surface<T>& s, TextureReader<T>& textures) const {

@@ -23,7 +23,7 @@ void LayOut(TextureData& texture, int picture_width, int picture_height, bool mi
       std::size_t(picture_width) * std::size_t(picture_height) > (std::size_t{1} << 27)) {
     throw Error(ErrorCode::OutOfMemory,
                 "a texture of " + std::to_string(picture_width) + " x " + std::to_string(picture_height) + " texels", {},
-                "the limit is 32768 a side and 2^27 in all");
+                "the limit is 32768 a side and 2^27 texels in all");
   }
   int width = picture_width, height = picture_height;
   std::size_t texels = 0;

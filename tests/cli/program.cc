@@ -23,6 +23,9 @@ void Redirect(const char* path, int flags, int descriptor) {
   close(file);
 }
 
+// Runs have no cache but those that tests give them.
+[[maybe_unused]] const int no_cache = unsetenv("FACET_CACHE");
+
 }  // namespace
 
 Outcome RunFacet(const std::vector<std::string>& arguments, const Conditions& conditions) {

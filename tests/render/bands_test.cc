@@ -192,7 +192,7 @@ TEST(MemoryLimit, TexturesBeyondAllLimitsAreRefusedByTheirSize) {
   const std::string refusal = Refusal(WithTexture(100000, 100000, 8, true), settings);
   EXPECT_TRUE(Has(refusal,
                   "hollow.png: a texture of 100000 x 100000 texels needs 74.5 GiB, and the limit is 32768 a "
-                  "side and 1.3 GiB in all"))
+                  "side and 2^27 texels in all"))
       << refusal;
 }
 

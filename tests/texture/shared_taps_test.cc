@@ -1,6 +1,8 @@
 // Textures of one size, sampled alike, share the places of their texels.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "texture/sample-inl.h"
 
 namespace facet {
@@ -57,6 +59,35 @@ TEST(SharedTaps, TexturesThatAreReadTogetherAreThoseThatAreReadAlone) {
       for (int c = 0; c < 4; ++c) EXPECT_EQ(all[k].of_lane[c], alone.of_lane[c]) << count << " " << k << " " << c;
     }
   }
+}
+
+// However many places are weighed: each bilinear share is right to 1/16384, and so are the three weights split off it.
+TEST(WholeWeights, AreTheExactOnesButForTheirRounding) {
+  const TextureData data = BuildTexture(Pattern(64, 32, 11), TextureRole::Data, true);
+  TextureSlot slot;
+  slot.data = &data;
+  slot.max_anisotropy = 16.0f;
+  int most_taps = 0;
+  double bias = 0.0;
+  const int kCount = 4000;
+  for (int i = 0; i < kCount; ++i) {
+    const float u = float(i % 97) / 97.0f, v = float(i % 61) / 61.0f, length = 0.02f + float(i % 50) * 0.02f,
+                width = 0.02f + float(i % 7) * 0.004f;
+    lanes::TextureTaps<float> taps;
+    lanes::MakeTextureTaps<float>(slot, {u, v}, {length, 0.3f * length}, {-0.1f * width, width}, taps);
+    most_taps = std::max(most_taps, taps.count);
+    const lanes::Vec4<float> whole = lanes::ReadTexture<kRgba>(slot, taps);
+    const auto wide = [](lanes::Vec2<float> a) { return lanes::Vec2<double>{a.x, a.y}; };
+    lanes::TextureTaps<double> exact_taps;
+    lanes::MakeTextureTaps<double>(slot, wide({u, v}), wide({length, 0.3f * length}), wide({-0.1f * width, width}),
+                                   exact_taps);
+    if (exact_taps.count != taps.count) continue;  // rounding decided for another number of taps
+    const lanes::Vec4<double> exact = lanes::ReadTexture<kRgba>(slot, exact_taps);
+    EXPECT_NEAR(whole.x, exact.x, (2.5 * taps.count + 1.0) / 16384) << i << " " << taps.count;
+    bias += (whole.x - exact.x) / kCount;
+  }
+  EXPECT_GE(most_taps, 30);
+  EXPECT_LT(std::fabs(bias), 2e-5);
 }
 
 TEST(SharedTaps, AreRefusedWhereAnythingDiffersThatPlacesTexels) {
