@@ -132,7 +132,7 @@ void WriteFileWhole(const std::filesystem::path& path, const std::function<void(
 }
 
 void WriteFileWhole(const std::filesystem::path& path, std::span<const std::byte> bytes) {
-  WriteFileWhole(path, std::initializer_list{bytes});
+  WriteFileWhole(path, std::initializer_list<std::span<const std::byte>>{bytes});
 }
 
 void WriteFileWhole(const std::filesystem::path& path, std::initializer_list<std::span<const std::byte>> parts) {

@@ -123,7 +123,7 @@ void TextureBuilder::Expand(const Number* row) {
     const int from = channel_of_[k];
     const bool alpha = channels_ % 2 == 0 && from == channels_ - 1;
     const std::vector<float>& codes = alpha ? linear_ : color_;
-    const auto number = [&codes](Number code) {
+    const auto number = [&](Number code) {
       if constexpr (std::is_same_v<Number, float>) {
         return code > 0.0f ? std::min(code, 1.0f) : 0.0f;
       } else {
