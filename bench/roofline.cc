@@ -8,8 +8,8 @@
 //                lay in one texel of 16 bytes: in the order of the frame, from squares of 4 x 4 texels
 //   tables       prefiltered environment (two levels), irradiance, albedo tables: 16 reads of 16 bytes in the cache
 //   arithmetic   as many additions and multiplications, divisions and roots as facet's shader does for a fragment, counted
-//                by running it on numbers that count; in lanes, none waiting for another. Addresses, and the weighing of texels, which is done in integers,
-//                are not counted.
+//                by running it on numbers that count; in lanes, none waiting for another. Addresses are not counted, nor is
+//                the weighing of texels, which is done in integers
 //   background   four pixels of the picture for each pixel that the model leaves free, and the arithmetic of its direction
 //   film         16 bytes a pixel, written once
 // Nothing is counted for vertices, triangle set-up and visibility. Each part is timed alone (the least of the repeats)

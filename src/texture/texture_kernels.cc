@@ -2,7 +2,6 @@
 #define HWY_TARGET_INCLUDE "texture/texture_kernels.cc"
 #include "hwy/foreach_target.h"
 
-#include <algorithm>
 #include <cstring>
 
 #include "facet/shader/dispatch.h"
@@ -41,9 +40,14 @@ HWY_INLINE void StoreRowOf(const StoreRowTask& task) {
       const Int code = TruncateToInt(LoadFloat(task.planes[k] + x) * scale + half);
       numbers[k] = hn::DemoteTo(d, (code - middle).raw);
     }
-    Number texels[kStored * kMaxLanes];
-    StoreTexels<kStored>(d, numbers, texels);
-    std::memcpy(task.bytes + x * kTexel, texels, std::min(lanes, width - x) * kTexel);
+    std::uint8_t* out = task.bytes + x * kTexel;
+    if (x + lanes <= width) {  // a row begins where a texel does, so that wide numbers are aligned
+      StoreTexels<kStored>(d, numbers, reinterpret_cast<Number*>(out));
+    } else {
+      Number texels[kStored * kMaxLanes];
+      StoreTexels<kStored>(d, numbers, texels);
+      std::memcpy(out, texels, (width - x) * kTexel);
+    }
   }
   std::memcpy(task.bytes + width * kTexel, task.bytes, kTexel);
 }
