@@ -23,7 +23,7 @@ class Assembler {
   Assembler(const FrameView& view, const FrameDrawable& drawable, const VertexBuffer& vertices, int samples,
             TriangleChunk& chunk)
       : view_(view), drawable_(drawable), vertices_(vertices.data() + drawable.vertex_base), chunk_(chunk),
-        reach_(ReachOf(samples)) {}
+        samples_(samples) {}
 
   // Small ones in groups; where a group has others, that group one by one.
   void Triangles() {
@@ -34,7 +34,7 @@ class Assembler {
     run.corners = Corners(unrolled);
     run.drawable_index = chunk_.drawable;
     run.first_primitive = chunk_.first_primitive;
-    run.reach = reach_;
+    run.samples = samples_;
     const auto advance = [&](std::uint32_t n) { run.corners += 3 * std::size_t{n}, run.first_primitive += n; };
     const std::uint32_t end = chunk_.first_primitive + chunk_.primitive_count;
     chunk_.records.reserve(chunk_.primitive_count);  // what is not written of it takes no memory
@@ -166,15 +166,11 @@ class Assembler {
     if (area == 0 || (back && !drawable_.double_sided)) return void(++chunk_.culled);
     if (area < 0) std::swap(b, c), area = -area;
 
-    const auto [min_x, max_x] = std::minmax({a.x_fx8, b.x_fx8, c.x_fx8});
-    const auto [min_y, max_y] = std::minmax({a.y_fx8, b.y_fx8, c.y_fx8});
-    if (!SpansSample(min_x, max_x, reach_.low_x, reach_.high_x) ||
-        !SpansSample(min_y, max_y, reach_.low_y, reach_.high_y)) {
-      return void(++chunk_.culled);
-    }
+    const std::int32_t x_fx8[3] = {a.x_fx8, b.x_fx8, c.x_fx8}, y_fx8[3] = {a.y_fx8, b.y_fx8, c.y_fx8};
+    if (!MayCoverSample(x_fx8, y_fx8, samples_)) return void(++chunk_.culled);
     TriangleRecord& r = chunk_.records.emplace_back();
-    r.x_fx8[0] = a.x_fx8, r.x_fx8[1] = b.x_fx8, r.x_fx8[2] = c.x_fx8;
-    r.y_fx8[0] = a.y_fx8, r.y_fx8[1] = b.y_fx8, r.y_fx8[2] = c.y_fx8;
+    std::copy_n(x_fx8, 3, r.x_fx8);
+    std::copy_n(y_fx8, 3, r.y_fx8);
     const double scale = static_cast<double>(kSubpixelScale) / static_cast<double>(area);
     const double x1 = b.x_fx8 - a.x_fx8, y1 = b.y_fx8 - a.y_fx8, x2 = c.x_fx8 - a.x_fx8, y2 = c.y_fx8 - a.y_fx8;
     const double z1 = b.depth - a.depth, z2 = c.depth - a.depth;
@@ -189,18 +185,11 @@ class Assembler {
     r.back_facing = back;
   }
 
-  // Whether [low, high] holds at least one position of the grid pixel * 256 + [first, last].
-  static bool SpansSample(std::int32_t low, std::int32_t high, int first, int last) {
-    const std::int32_t first_pixel = (low - last + kSubpixelScale - 1) >> kSubpixelBits;
-    const std::int32_t last_pixel = (high - first) >> kSubpixelBits;
-    return first_pixel <= last_pixel;
-  }
-
   const FrameView& view_;
   const FrameDrawable& drawable_;
   const ScreenVertex* vertices_;
   TriangleChunk& chunk_;
-  const SampleReach reach_;
+  const int samples_;
 };
 
 }  // namespace

@@ -37,11 +37,57 @@ HWY_INLINE CornerLanes Select(Mask m, const CornerLanes& a, const CornerLanes& b
   return {Select(m, a.x, b.x), Select(m, a.y, b.y), a.outcode, Select(m, a.depth, b.depth)};
 }
 
-// Whether [low, high] holds at least one position of the grid pixel * 256 + [first, last].
-HWY_INLINE Mask SpansSample(Int low, Int high, int first, int last) {
-  const Int first_pixel = ShiftRightArithmetic<kSubpixelBits>(low + Int(kSubpixelScale - 1 - last));
-  const Int last_pixel = ShiftRightArithmetic<kSubpixelBits>(high - Int(first));
-  return !(first_pixel > last_pixel);
+// Which samples of the 2 x 2 pixels from (first_x, first_y) on a triangle covers, by the rasterizer's edge functions and
+// fill rule, as TriangleRecord::covered has them. Its corners lie clockwise, a few pixels from there.
+HWY_INLINE Int CoveredSamples(const Int (&x_fx8)[3], const Int (&y_fx8)[3], Int first_x, Int first_y, int samples) {
+  const Int x0 = ShiftLeft<kSubpixelBits>(first_x), y0 = ShiftLeft<kSubpixelBits>(first_y);
+  Int a[3], b[3], c[3];
+  for (int i = 0; i < 3; ++i) {
+    const int j = i == 2 ? 0 : i + 1;
+    a[i] = y_fx8[i] - y_fx8[j], b[i] = x_fx8[j] - x_fx8[i];
+    const Mask left_or_top = (a[i] > Int(0)) | ((a[i] == Int(0)) & (b[i] > Int(0)));
+    c[i] = Select(left_or_top, Int(0), Int(-1)) - a[i] * (x_fx8[i] - x0) - b[i] * (y_fx8[i] - y0);
+  }
+  Int covered(0);
+  const SamplePosition* pattern = SamplePattern(samples);
+  for (int s = 0; s < samples; ++s) {
+    constexpr int kUnit = kSubpixelScale / kSampleGrid;
+    Int e[4][3];
+    for (int i = 0; i < 3; ++i) {
+      const Int right = ShiftLeft<kSubpixelBits>(a[i]), down = ShiftLeft<kSubpixelBits>(b[i]);
+      e[0][i] = c[i] + a[i] * Int(pattern[s].x * kUnit) + b[i] * Int(pattern[s].y * kUnit);
+      e[1][i] = e[0][i] + right, e[2][i] = e[0][i] + down, e[3][i] = e[1][i] + down;
+    }
+    for (int p = 0; p < 4; ++p) {
+      const Mask inside = !((e[p][0] | e[p][1] | e[p][2]) < Int(0));
+      covered = covered | Select(inside, Int(static_cast<std::int32_t>(1u << (8 * p + s))), Int(0));
+    }
+  }
+  return covered;
+}
+
+// Which triangles may cover a sample, and what they cover where that is known (TriangleRecord::covered).
+struct Coverage {
+  Mask some;
+  Int known;
+};
+
+HWY_INLINE Coverage CoverageOf(const Int (&x_fx8)[3], const Int (&y_fx8)[3], int samples) {
+  const auto first = [](const Int(&p)[3], int high) HWY_ATTR {
+    const Int low = Min(Min(p[0], p[1]), p[2]);
+    return ShiftRightArithmetic<kSubpixelBits>(low + Int(kSubpixelScale - 1 - high));  // FirstPixel()
+  };
+  const auto last = [](const Int(&p)[3], int low) HWY_ATTR {
+    return ShiftRightArithmetic<kSubpixelBits>(Max(Max(p[0], p[1]), p[2]) - Int(low));
+  };
+  const SampleReach reach = ReachOf(samples);
+  const Int first_x = first(x_fx8, reach.high_x), last_x = last(x_fx8, reach.low_x);
+  const Int first_y = first(y_fx8, reach.high_y), last_y = last(y_fx8, reach.low_y);
+  const Mask some = !((first_x > last_x) | (first_y > last_y));
+  const Mask few = some & (last_x - first_x < Int(2)) & (last_y - first_y < Int(2));
+  if (!Any(few)) return {some, Int(0)};
+  const Int covered = Select(few, CoveredSamples(x_fx8, y_fx8, first_x, first_y, samples), Int(0));
+  return {some & !(few & (covered == Int(0))), covered};
 }
 
 // Rates of depth over the screen, in double, from corners relative to the first. The same sequence as the one for
@@ -72,7 +118,7 @@ SmallTriangles SetUpSmallTrianglesKernel(const TriangleRun& run, std::vector<Tri
   SmallTriangles result;
   alignas(64) std::int32_t tail[3 * kMaxLanes] = {};
   alignas(64) std::int32_t x[3][kMaxLanes], y[3][kMaxLanes], x1[kMaxLanes], y1[kMaxLanes], x2[kMaxLanes],
-      y2[kMaxLanes], areas[kMaxLanes];
+      y2[kMaxLanes], areas[kMaxLanes], covered[kMaxLanes];
   alignas(64) float depth[3][kMaxLanes], nearest[kMaxLanes], farthest[kMaxLanes];
   alignas(64) double depth_dx[kMaxLanes], depth_dy[kMaxLanes];
   for (std::uint32_t i = 0; i < run.count; i += lanes) {
@@ -99,9 +145,11 @@ SmallTriangles SetUpSmallTrianglesKernel(const TriangleRun& run, std::vector<Tri
     const Int area = (second.x - a.x) * (third.y - a.y) - (third.x - a.x) * (second.y - a.y);
     // glTF's front faces run counter-clockwise; with y down that is a negative area.
     const Mask turned = area < Int(0), back = mirrored ? turned : area > Int(0);
-    Mask seen = in_view & (!(area == Int(0))) & SpansSample(low_x, high_x, run.reach.low_x, run.reach.high_x) &
-                SpansSample(low_y, high_y, run.reach.low_y, run.reach.high_y);
+    const CornerLanes b = Select(turned, third, second), c = Select(turned, second, third);
+    Mask seen = in_view & (!(area == Int(0)));
     if (!double_sided) seen = seen & (!back);
+    const Coverage coverage = CoverageOf({a.x, b.x, c.x}, {a.y, b.y, c.y}, run.samples);
+    seen = seen & coverage.some;
     std::uint32_t seen_bits = BitsOf(seen);
     const auto in_view_count = static_cast<std::uint32_t>(__builtin_popcount(BitsOf(in_view)));
     const auto seen_count = static_cast<std::uint32_t>(__builtin_popcount(seen_bits));
@@ -110,13 +158,13 @@ SmallTriangles SetUpSmallTrianglesKernel(const TriangleRun& run, std::vector<Tri
     result.culled += in_view_count - seen_count;
     if (seen_bits == 0) continue;
 
-    const CornerLanes b = Select(turned, third, second), c = Select(turned, second, third);
     const CornerLanes* corner[3] = {&a, &b, &c};
     for (int k = 0; k < 3; ++k) {
       Store(corner[k]->x, x[k]);
       Store(corner[k]->y, y[k]);
       Store(corner[k]->depth, depth[k]);
     }
+    Store(coverage.known, covered);
     Store(b.x - a.x, x1);
     Store(b.y - a.y, y1);
     Store(c.x - a.x, x2);
@@ -140,9 +188,15 @@ SmallTriangles SetUpSmallTrianglesKernel(const TriangleRun& run, std::vector<Tri
       r.primitive = run.first_primitive + i + static_cast<std::uint32_t>(k);
       r.kind = RecordKind::Triangle;
       r.back_facing = (back_bits >> k & 1) != 0;
+      r.covered = static_cast<std::uint32_t>(covered[k]);
     }
   }
   return result;
+}
+
+bool MayCoverSampleKernel(const std::int32_t (&x_fx8)[3], const std::int32_t (&y_fx8)[3], int samples) {
+  return Any(CoverageOf({Int(x_fx8[0]), Int(x_fx8[1]), Int(x_fx8[2])}, {Int(y_fx8[0]), Int(y_fx8[1]), Int(y_fx8[2])},
+                        samples).some);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -153,20 +207,14 @@ HWY_AFTER_NAMESPACE();
 namespace facet {
 
 FACET_EXPORT(SetUpSmallTrianglesKernel);
+FACET_EXPORT(MayCoverSampleKernel);
 
 SmallTriangles SetUpSmallTriangles(const TriangleRun& run, std::vector<TriangleRecord>& records) {
   return FACET_DISPATCH(SetUpSmallTrianglesKernel)(run, records);
 }
 
-SampleReach ReachOf(int samples) {
-  const SamplePosition* pattern = SamplePattern(samples);
-  SampleReach reach{kSampleGrid, 0, kSampleGrid, 0};
-  for (int s = 0; s < samples; ++s) {
-    reach.low_x = std::min<int>(reach.low_x, pattern[s].x), reach.high_x = std::max<int>(reach.high_x, pattern[s].x);
-    reach.low_y = std::min<int>(reach.low_y, pattern[s].y), reach.high_y = std::max<int>(reach.high_y, pattern[s].y);
-  }
-  constexpr int kUnit = kSubpixelScale / kSampleGrid;
-  return {reach.low_x * kUnit, reach.high_x * kUnit, reach.low_y * kUnit, reach.high_y * kUnit};
+bool MayCoverSample(const std::int32_t (&x_fx8)[3], const std::int32_t (&y_fx8)[3], int samples) {
+  return FACET_DISPATCH(MayCoverSampleKernel)(x_fx8, y_fx8, samples);
 }
 
 }  // namespace facet

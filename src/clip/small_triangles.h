@@ -8,12 +8,9 @@
 
 namespace facet {
 
-// The outermost samples of a pixel, in fx8 from its corner: they bound which triangles can cover one at all.
-struct SampleReach {
-  int low_x, high_x, low_y, high_y;
-};
-
-SampleReach ReachOf(int samples);
+// Whether a triangle, its corners clockwise, may cover a sample. Exact for one that spans the samples of at most 2 x 2
+// pixels; of a larger one it says whether its bounding box holds a sample.
+bool MayCoverSample(const std::int32_t (&x_fx8)[3], const std::int32_t (&y_fx8)[3], int samples);
 
 // The largest extent of a small triangle: twice its area fits 32 bits.
 inline constexpr std::int32_t kSmallTriangle_fx8 = (1 << 15) - 1;
@@ -25,7 +22,7 @@ struct TriangleRun {
   const std::uint32_t* corners = nullptr;  // three indices into `vertices` a triangle
   std::uint32_t drawable_index = 0;
   std::uint32_t first_primitive = 0, count = 0;
-  SampleReach reach{};
+  int samples = 1;
 };
 
 struct SmallTriangles {
@@ -35,7 +32,8 @@ struct SmallTriangles {
 
 // Sets up triangles of the run from its start on, group by group, up to the first group that holds one which is neither
 // small nor outside the view. Appends to `records` those that can be seen, in their order. The others are outside the
-// view (rejected), or have no area, show a hidden face or lie between samples (culled).
+// view (rejected), or have no area, show a hidden face or lie between samples (culled): where a mesh is finer than the
+// picture many do, and what covers few samples is set up here once and for all.
 SmallTriangles SetUpSmallTriangles(const TriangleRun& run, std::vector<TriangleRecord>& records);
 
 // How many triangles at most are a group.

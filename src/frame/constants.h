@@ -57,4 +57,26 @@ constexpr const SamplePosition* SamplePattern(int samples) {
   return samples == 1 ? kSamples1.data() : samples == 2 ? kSamples2.data() : samples == 4 ? kSamples4.data() : kSamples8.data();
 }
 
+// The outermost samples of a pixel, in fx8 from its corner.
+struct SampleReach {
+  int low_x, high_x, low_y, high_y;
+};
+
+constexpr SampleReach ReachOf(int samples) {
+  constexpr int kUnit = kSubpixelScale / kSampleGrid;
+  const SamplePosition* pattern = SamplePattern(samples);
+  SampleReach reach{kSubpixelScale, 0, kSubpixelScale, 0};
+  for (int s = 0; s < samples; ++s) {
+    const int x = pattern[s].x * kUnit, y = pattern[s].y * kUnit;
+    reach.low_x = x < reach.low_x ? x : reach.low_x, reach.high_x = x > reach.high_x ? x : reach.high_x;
+    reach.low_y = y < reach.low_y ? y : reach.low_y, reach.high_y = y > reach.high_y ? y : reach.high_y;
+  }
+  return reach;
+}
+
+// The first column (row) of pixels with a sample at or after a position; `high`: the reach's.
+constexpr std::int32_t FirstPixel(std::int32_t from_fx8, int high) {
+  return (from_fx8 + kSubpixelScale - 1 - high) >> kSubpixelBits;
+}
+
 }  // namespace facet

@@ -74,7 +74,10 @@ struct TriangleRecord {
   std::uint32_t primitive;  // within the drawable
   RecordKind kind;
   bool back_facing;
-  TriangleRecord() : primitive(0), kind(RecordKind::Triangle), back_facing(false) {}  // NOLINT: the rest is left unset
+  // Of a triangle that spans the samples of at most 2 x 2 pixels, those that it covers: bit 8 * p + s is sample s of pixel
+  // p of the four, row by row from FirstPixel() of its least x and y on. 0: not known.
+  std::uint32_t covered;
+  TriangleRecord() : primitive(0), kind(RecordKind::Triangle), back_facing(false), covered(0) {}  // NOLINT: rest unset
 };
 
 // A run of one drawable's primitives, processed by one task. Chunk order is submission order.

@@ -98,6 +98,37 @@ struct BlockRange {
   }
 };
 
+// The same as VisitCoverage (below) for a triangle whose few samples are known: visit(offset, sample, depth) for each that
+// passes the depth test, and end_pixel(x, y) after those of a pixel.
+template <bool kOrEqual, int kSamples, class Visit, class EndPixel>
+HWY_INLINE void VisitKnownCoverage(const TriangleRecord& r, const TileBuffers& tile, const SampleReach& reach,
+                                   const Visit& visit, const EndPixel& end_pixel) {
+  const SamplePosition* pattern = SamplePattern(tile.Samples<kSamples>());
+  const int first_x = FirstPixel(std::min(std::min(r.x_fx8[0], r.x_fx8[1]), r.x_fx8[2]), reach.high_x) - tile.x0;
+  const int first_y = FirstPixel(std::min(std::min(r.y_fx8[0], r.y_fx8[1]), r.y_fx8[2]), reach.high_y) - tile.y0;
+  for (std::uint32_t left = r.covered; left != 0;) {
+    const int pixel = __builtin_ctz(left) / 8;
+    std::uint32_t samples = left & 0xFFu << 8 * pixel;
+    left ^= samples;
+    const int x = first_x + pixel % 2, y = first_y + pixel / 2;
+    if (static_cast<unsigned>(x) >= static_cast<unsigned>(tile.width) ||
+        static_cast<unsigned>(y) >= static_cast<unsigned>(tile.height)) {
+      continue;
+    }
+    const int in_block_x = x % kBlockSize, in_block_y = y % kBlockSize;
+    const BlockDepth d = MakeBlockDepth(r, tile.x0 + x - in_block_x, tile.y0 + y - in_block_y);
+    for (samples >>= 8 * pixel; samples != 0; samples &= samples - 1) {
+      const int s = kSamples == 1 ? 0 : __builtin_ctz(samples);
+      constexpr float kUnit = 1.0f / kSampleGrid;
+      const float depth = DepthAt(d, static_cast<float>(in_block_x * kSampleGrid + pattern[s].x) * kUnit,
+                                  static_cast<float>(in_block_y * kSampleGrid + pattern[s].y) * kUnit);
+      const std::size_t offset = tile.Index(x, y, s);
+      if (kOrEqual ? depth >= tile.depth[offset] : depth > tile.depth[offset]) visit(offset, s, depth);
+    }
+    end_pixel(x, y);
+  }
+}
+
 inline void PrefetchRecord(const TriangleRecord& r) {
   const char* bytes = reinterpret_cast<const char*>(&r);
   __builtin_prefetch(bytes);
@@ -181,8 +212,19 @@ HWY_INLINE void VisitCoverage(const TriangleRecord& r, const TileBuffers& tile, 
 template <int kSamples>
 HWY_INLINE void Draw(const TileTriangles& triangles, TileBuffers& tile) {
   constexpr std::size_t kAhead = 8;  // records, which lie in order only within a chunk
+  const SampleReach reach = ReachOf(tile.Samples<kSamples>());
   for (std::size_t t = 0; t < triangles.count; ++t) {
     if (t + kAhead < triangles.count) PrefetchRecord(*triangles.records[t + kAhead]);
+    if (triangles.records[t]->covered != 0) {
+      VisitKnownCoverage<false, kSamples>(
+          *triangles.records[t], tile, reach,
+          [&](std::size_t offset, int, float depth) {
+            tile.depth[offset] = depth;
+            tile.record[offset] = triangles.numbers[t];
+          },
+          [](int, int) {});
+      continue;
+    }
     const Int number(triangles.numbers[t]);
     VisitCoverage<false, kSamples>(
         *triangles.records[t], tile,
@@ -213,7 +255,20 @@ void RasterOpaqueKernel(const TileTriangles& triangles, TileBuffers& tile) {
 
 template <bool kOrEqual, int kSamples>
 HWY_INLINE void Collect(const TileTriangles& triangles, const TileBuffers& tile, FragmentList& out) {
+  const SampleReach reach = ReachOf(tile.Samples<kSamples>());
   for (std::size_t t = 0; t < triangles.count; ++t) {
+    if (triangles.records[t]->covered != 0) {
+      std::uint32_t samples = 0;
+      VisitKnownCoverage<kOrEqual, kSamples>(
+          *triangles.records[t], tile, reach, [&](std::size_t, int s, float) { samples |= 1u << s; },
+          [&](int x, int y) {
+            if (samples == 0) return;
+            out.Push(static_cast<std::uint16_t>(y * tile.tile_size + x), triangles.numbers[t],
+                     static_cast<std::uint8_t>(samples));
+            samples = 0;
+          });
+      continue;
+    }
     std::uint32_t lanes_of[kMaxSamples] = {};
     std::uint32_t any = 0;
     VisitCoverage<kOrEqual, kSamples>(

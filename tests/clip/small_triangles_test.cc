@@ -131,6 +131,51 @@ TEST(SmallTriangles, WhatIsCulledCoversNothing) {
   EXPECT_GT(culled_with_area, 100u) << "the test shows nothing";
 }
 
+// What a record says that it covers is what it covers, and no record of few samples covers none.
+TEST(SmallTriangles, KnownCoverageIsExact) {
+  Random random(303);
+  const FrameView view = PerspectiveView(kWidth, kHeight, 100.0, 0.1);
+  for (const Target target : {Target::Scalar, Target::Sse4, Target::Avx2, Target::Avx3, Target::Neon}) {
+    if (!TargetIsAvailable(target)) continue;
+    const ScopedTarget scoped(target);
+    for (const int samples : {1, 2, 4, 8}) {
+      const SampleReach reach = ReachOf(samples);
+      const Primitive soup = Soup(random, 2000, false);
+      int known = 0, wide = 0;
+      for (const TriangleRecord& r : Assemble(view, PlaceDrawable(view, soup, glm::dmat4(1.0), true), samples).chunk.records) {
+        const auto [low_x, high_x] = std::minmax({r.x_fx8[0], r.x_fx8[1], r.x_fx8[2]});
+        const auto [low_y, high_y] = std::minmax({r.y_fx8[0], r.y_fx8[1], r.y_fx8[2]});
+        std::uint32_t expected = 0;
+        int outside = 0;  // of the 2 x 2 pixels, in the box of 4 x 4 around them
+        for (int y = -1; y < 3; ++y) {
+          for (int x = -1; x < 3; ++x) {
+            for (int s = 0; s < samples; ++s) {
+              const int column = FirstPixel(low_x, reach.high_x) + x, row = FirstPixel(low_y, reach.high_y) + y;
+              if (!CoversExactly(r, SampleAt(column, row, samples, s))) continue;
+              if (x < 0 || y < 0 || x > 1 || y > 1) ++outside;
+              else expected |= 1u << (8 * (2 * y + x) + s);
+            }
+          }
+        }
+        const auto last = [](std::int32_t high, int low) { return (high - low) >> kSubpixelBits; };
+        const bool few = last(high_x, reach.low_x) - FirstPixel(low_x, reach.high_x) < 2 &&
+                         last(high_y, reach.low_y) - FirstPixel(low_y, reach.high_y) < 2;
+        if (few) {
+          EXPECT_EQ(outside, 0);
+          EXPECT_NE(expected, 0u);
+        }
+        if (r.covered != 0) {
+          EXPECT_TRUE(few);
+          EXPECT_EQ(r.covered, expected) << TargetName(target) << ", " << samples << " samples";
+        }
+        (r.covered != 0 ? known : wide) += 1;
+      }
+      EXPECT_GT(known, 20);
+      EXPECT_GT(wide, 20);
+    }
+  }
+}
+
 // Strips, fans and lists without indices come to the same triangles as a list.
 TEST(SmallTriangles, EveryTopology) {
   Random random(303);
