@@ -37,8 +37,8 @@ HWY_INLINE CornerLanes Select(Mask m, const CornerLanes& a, const CornerLanes& b
   return {Select(m, a.x, b.x), Select(m, a.y, b.y), a.outcode, Select(m, a.depth, b.depth)};
 }
 
-// Which samples of the 2 x 2 pixels from (first_x, first_y) on a triangle covers, by the rasterizer's edge functions and
-// fill rule, as TriangleRecord::covered has them. Its corners lie clockwise, a few pixels from there.
+// Which samples of the 2 x 2 pixels from (first_x, first_y) on a triangle covers, by the rasterizer's edge functions
+// and fill rule, as TriangleRecord::covered has them. Its corners lie clockwise, a few pixels from there.
 HWY_INLINE Int CoveredSamples(const Int (&x_fx8)[3], const Int (&y_fx8)[3], Int first_x, Int first_y, int samples) {
   const Int x0 = ShiftLeft<kSubpixelBits>(first_x), y0 = ShiftLeft<kSubpixelBits>(first_y);
   Int a[3], b[3], c[3];

@@ -98,8 +98,8 @@ struct BlockRange {
   }
 };
 
-// The same as VisitCoverage (below) for a triangle whose few samples are known: visit(offset, sample, depth) for each that
-// passes the depth test, and end_pixel(x, y) after those of a pixel.
+// What VisitCoverage (below) does, for a triangle whose few samples are known: visit(offset, sample, depth) for each
+// that passes the depth test, and end_pixel(x, y) after those of a pixel.
 template <bool kOrEqual, int kSamples, class Visit, class EndPixel>
 HWY_INLINE void VisitKnownCoverage(const TriangleRecord& r, const TileBuffers& tile, const SampleReach& reach,
                                    const Visit& visit, const EndPixel& end_pixel) {

@@ -143,25 +143,19 @@ class MaterialView {
     TextureReader<T> own(s);
     TextureReader<T>& textures = ReaderOf(s, own);
     textures.ReadAll(m_);
-    MaterialInputs<T> in{};
     const Vec4<T> base = BaseColor(s, textures);
-    in.base_color = Xyz(base);
-    in.alpha_coverage = base.w;
-    in.metallic = T(m_.metallic);
-    in.perceptual_roughness = T(m_.perceptual_roughness);
+    T metallic(m_.metallic), perceptual_roughness(m_.perceptual_roughness), occlusion(1.0f);
     if (m_.Has(kMetallicRoughnessTexture)) {
       const Vec4<T> texel = textures.template Read<kG | kB>(m_.metallic_roughness_texture);
-      in.perceptual_roughness = in.perceptual_roughness * texel.y;
-      in.metallic = in.metallic * texel.z;
+      perceptual_roughness = perceptual_roughness * texel.y;
+      metallic = metallic * texel.z;
     }
-    in.occlusion = T(1.0f);
     if (m_.Has(kOcclusionTexture)) {
-      in.occlusion = T(1.0f) + T(m_.occlusion_strength) *
-                                   (textures.template Read<kR>(m_.occlusion_texture).x - T(1.0f));
+      occlusion = occlusion + T(m_.occlusion_strength) *
+                                  (textures.template Read<kR>(m_.occlusion_texture).x - T(1.0f));
     }
-    in.normal = Normal(s, textures);
-    if (m_.Has(kEmission)) in.emissive = Emissive(textures);
-    return in;
+    const Vec3<T> emissive = m_.Has(kEmission) ? Emissive(textures) : Vec3<T>{T(0.0f), T(0.0f), T(0.0f)};
+    return {Xyz(base), base.w, metallic, perceptual_roughness, Normal(s, textures), occlusion, emissive};
   }
 
  private:

@@ -8,6 +8,7 @@
 #define FACET_TEXTURE_SAMPLE_INL_H_
 #endif
 
+#include <algorithm>
 #include <type_traits>
 
 #include "facet/shader/elementary-inl.h"
@@ -82,11 +83,16 @@ template <class T, bool kWhole = kWholeWeights<T>>
 struct WeightPair {
   IndexList<T> of_lane;
   HWY_INLINE void Set(T left, T right) { of_lane = TruncateToInt(left) | ShiftLeft<16>(TruncateToInt(right)); }
+  // Where there is one lane.
+  HWY_INLINE std::int32_t Left() const { return of_lane.of_lane[0] & 0xFFFF; }
+  HWY_INLINE std::int32_t Right() const { return of_lane.of_lane[0] >> 16; }
 };
 template <class T>
 struct WeightPair<T, false> {
   T left, right;
   HWY_INLINE void Set(T l, T r) { left = l, right = r; }
+  HWY_INLINE T Left() const { return left; }
+  HWY_INLINE T Right() const { return right; }
 };
 
 // Where the texels of one bilinear footprint stand, and how much each counts.
@@ -288,89 +294,105 @@ struct ScalarPairs {
   HWY_INLINE std::int32_t Right(int channel) const { return Number(2 * channel + 1); }
 };
 
-// Sums of numbers times weights, of one texture and all lanes.
-template <class T, bool kWhole = kWholeWeights<T>>
+#if HWY_TARGET == HWY_SCALAR
+template <class T>
+inline constexpr bool kInLanes = false;
+#else
+template <class T>
+inline constexpr bool kInLanes = std::is_same_v<T, Float>;
+#endif
+
+// Sums of one texture's numbers times weights.
+template <class T, bool kLanes = kInLanes<T>>
 struct TexelSums {
-  alignas(64) std::int32_t of_lane[4 * IndexList<T>::kLanes];  // R, G, B and A of each
+  std::conditional_t<kWholeWeights<T>, std::int32_t, T> of_channel[4];
 };
 template <class T>
-struct TexelSums<T, false> {
-  T of_channel[4];
+struct TexelSums<T, true> {
+  IndexList<T> rows[4];  // R, G, B and A of a lane side by side; in row j those of lanes j, j + 4 and so on
 };
+
+#if HWY_TARGET != HWY_SCALAR
+// Selects number j of each block of 16 bytes, four times.
+struct NumberOfBlocks {
+  alignas(16) std::uint8_t bytes[4][16];
+  constexpr NumberOfBlocks() : bytes{} {
+    for (int i = 0; i < 64; ++i) bytes[i / 16][i % 16] = static_cast<std::uint8_t>(i / 16 * 4 + i % 4);
+  }
+};
+inline constexpr NumberOfBlocks kNumberOfBlocks;
+
+// In lanes a pair of texels is a block of 16 bytes, R, G, B and A side by side; a vector holds those of every fourth
+// lane, and one instruction serves them all. Two blocks a vector: four are no faster where 512 bits are done in halves.
+template <int kCount, class T>
+HWY_INLINE void SumTexelsInLanes(const TextureData* const* textures, const TextureTaps<T>& taps, TexelSums<T>* sums) {
+  using Tag = hn::CappedTag<std::int32_t, 8>;
+  const Tag d32;
+  const hn::Repartition<std::uint8_t, Tag> d8;
+  const hn::Repartition<std::int16_t, Tag> d16;
+  constexpr int kLanes = IndexList<T>::kLanes, kVector = hn::MaxLanes(Tag());
+  // Where the pairs of the upper and the lower row stand, in bytes: 2^27 texels of 8, and their levels, are below 2^31.
+  IndexList<T> at[2 * TextureTaps<T>::kMax][kCount][2];
+  for (int i = 0; i < taps.count; ++i) {
+    const Int top = LoadInt(taps.taps[i].top.of_lane), bottom = LoadInt(taps.taps[i].bottom.of_lane);
+    for (int k = 0; k < kCount; ++k) {
+      const Int size(textures[k]->TexelBytes());
+      at[i][k][0] = top * size;
+      at[i][k][1] = bottom * size;
+    }
+  }
+  for (int first = 0; first < kLanes; first += kVector) {
+    for (int j = 0; j < 4; ++j) {
+      hn::Vec<Tag> sum[kCount], more[kCount];  // `more`: Arm's sums of every second product
+      for (int k = 0; k < kCount; ++k) sum[k] = more[k] = hn::Zero(d32);
+      const auto number = hn::LoadDup128(d8, kNumberOfBlocks.bytes[j]);
+      const auto weights = [&](const WeightPair<T>& of) HWY_ATTR {
+        const auto all = hn::BitCast(d8, hn::Load(d32, of.of_lane.of_lane + first));
+        return hn::BitCast(d16, hn::TableLookupBytes(all, number));
+      };
+      int count = 0;  // of the lane that has most: further taps of the others weigh nothing
+      for (int lane = j; lane < kVector; lane += 4) count = std::max(count, taps.of_lane.of_lane[first + lane]);
+      for (int i = 0; i < count; ++i) {
+        const auto top = weights(taps.taps[i].top_weights), bottom = weights(taps.taps[i].bottom_weights);
+        for (int k = 0; k < kCount; ++k) {
+          const auto pair_bytes = hn::LoadDup128(d8, textures[k]->pair_bytes);
+          const auto pairs = [&](const IndexList<T>& byte) HWY_ATTR {
+            const auto texels = EveryFourthRow<1>(d8, textures[k]->bytes.data(), byte.of_lane + first + j);
+            return hn::BitCast(d16, hn::TableLookupBytesOr0(texels, pair_bytes));
+          };
+          sum[k] = hn::ReorderWidenMulAccumulate(d32, pairs(at[i][k][0]), top, sum[k], more[k]);
+          sum[k] = hn::ReorderWidenMulAccumulate(d32, pairs(at[i][k][1]), bottom, sum[k], more[k]);
+        }
+      }
+      for (int k = 0; k < kCount; ++k) {
+        hn::Store(hn::RearrangeToOddPlusEven(sum[k], more[k]), d32, sums[k].rows[j].of_lane + first);
+      }
+    }
+  }
+}
+#endif
 
 // Sums the texels at `taps` of kCount textures that all have those taps.
 template <int kCount, class T>
 HWY_INLINE void SumTexels(const TextureData* const* textures, const TextureTaps<T>& taps, TexelSums<T>* sums) {
-  const auto bytes_of = [&](int k, std::int32_t texel) {
-    return textures[k]->bytes.data() + std::ptrdiff_t(texel) * textures[k]->TexelBytes();
-  };
-  if constexpr (!kWholeWeights<T>) {
+  if constexpr (kInLanes<T>) {
+    SumTexelsInLanes<kCount>(textures, taps, sums);
+  } else {
     for (int k = 0; k < kCount; ++k) {
-      for (T& sum : sums[k].of_channel) sum = T(0.0f);
-      for (int i = 0; i < taps.count; ++i) {
+      auto& of_channel = sums[k].of_channel;
+      for (auto& sum : of_channel) sum = 0;
+      for (int i = 0; i < taps.of_lane.of_lane[0]; ++i) {
         const auto add = [&](const IndexList<T>& texel, const WeightPair<T>& weights) {
-          const ScalarPairs pairs{bytes_of(k, texel.of_lane[0]), *textures[k]};
+          const ScalarPairs pairs{
+              textures[k]->bytes.data() + std::ptrdiff_t(texel.of_lane[0]) * textures[k]->TexelBytes(), *textures[k]};
           for (int c = 0; c < 4; ++c) {
-            T& sum = sums[k].of_channel[c];
-            sum = sum + (weights.left * FromInt<T>(pairs.Left(c)) + weights.right * FromInt<T>(pairs.Right(c)));
+            of_channel[c] = of_channel[c] + (weights.Left() * pairs.Left(c) + weights.Right() * pairs.Right(c));
           }
         };
         add(taps.taps[i].top, taps.taps[i].top_weights);
         add(taps.taps[i].bottom, taps.taps[i].bottom_weights);
       }
     }
-    return;
-  } else {
-#if HWY_TARGET == HWY_SCALAR
-    for (int k = 0; k < kCount; ++k) {
-      std::int32_t* of_lane = sums[k].of_lane;
-      for (int c = 0; c < 4; ++c) of_lane[c] = 0;
-      for (int i = 0; i < taps.of_lane.of_lane[0]; ++i) {
-        const auto add = [&](const IndexList<T>& texel, const WeightPair<T>& weights) {
-          const ScalarPairs pairs{bytes_of(k, texel.of_lane[0]), *textures[k]};
-          const std::int32_t w = weights.of_lane.of_lane[0];
-          for (int c = 0; c < 4; ++c) of_lane[c] += (w & 0xFFFF) * pairs.Left(c) + (w >> 16) * pairs.Right(c);
-        };
-        add(taps.taps[i].top, taps.taps[i].top_weights);
-        add(taps.taps[i].bottom, taps.taps[i].bottom_weights);
-      }
-    }
-#else
-    // A texel pair is one vector, whatever the target's width: R, G, B and A side by side.
-    const hn::Full128<std::uint8_t> d8;
-    const hn::Full128<std::int16_t> d16;
-    const hn::Full128<std::int32_t> d32;
-    using Sum = hn::Vec<hn::Full128<std::int32_t>>;
-    const std::uint8_t* bytes[kCount];
-    std::ptrdiff_t texel_bytes[kCount];
-    for (int k = 0; k < kCount; ++k) {
-      bytes[k] = textures[k]->bytes.data();
-      texel_bytes[k] = textures[k]->TexelBytes();
-    }
-    for (int lane = 0; lane < IndexList<T>::kLanes; ++lane) {
-      Sum sum[kCount], more[kCount];  // `more`: Arm's sums of every second product
-      for (int k = 0; k < kCount; ++k) sum[k] = more[k] = hn::Zero(d32);
-      const int count = taps.of_lane.of_lane[lane];
-      for (int i = 0; i < count; ++i) {
-        const BilinearTap<T>& tap = taps.taps[i];
-        const std::ptrdiff_t top = tap.top.of_lane[lane], bottom = tap.bottom.of_lane[lane];
-        const auto top_weights = hn::BitCast(d16, hn::Set(d32, tap.top_weights.of_lane.of_lane[lane]));
-        const auto bottom_weights = hn::BitCast(d16, hn::Set(d32, tap.bottom_weights.of_lane.of_lane[lane]));
-        for (int k = 0; k < kCount; ++k) {
-          const auto pair_bytes = hn::LoadU(d8, textures[k]->pair_bytes);
-          const auto pairs = [&](std::ptrdiff_t texel) HWY_ATTR {
-            const auto row = hn::LoadU(d8, bytes[k] + texel * texel_bytes[k]);
-            return hn::BitCast(d16, hn::TableLookupBytesOr0(row, pair_bytes));
-          };
-          sum[k] = hn::ReorderWidenMulAccumulate(d32, pairs(top), top_weights, sum[k], more[k]);
-          sum[k] = hn::ReorderWidenMulAccumulate(d32, pairs(bottom), bottom_weights, sum[k], more[k]);
-        }
-      }
-      for (int k = 0; k < kCount; ++k) {
-        hn::Store(hn::RearrangeToOddPlusEven(sum[k], more[k]), d32, sums[k].of_lane + 4 * lane);
-      }
-    }
-#endif
   }
 }
 template <class T>
@@ -392,18 +414,24 @@ HWY_INLINE Vec4<T> ChannelsOf(const TextureData& data, const TexelSums<T>& sums)
   const T scale((data.wide ? 1.0f / 65535.0f : 1.0f / 255.0f) / kWeightSum<T>);
   Vec4<T> c{};
   if constexpr (kWholeWeights<T>) {
-    IntOf<T> r, g, b, a;
-    if constexpr (std::is_same_v<T, Float>) {
-      hn::LoadInterleaved4(IntTag(), sums.of_lane, r.raw, g.raw, b.raw, a.raw);
-    } else {
-      r = sums.of_lane[0], g = sums.of_lane[1], b = sums.of_lane[2], a = sums.of_lane[3];
+    IntOf<T> of_channel[4];
+#if HWY_TARGET != HWY_SCALAR
+    if constexpr (kInLanes<T>) {
+      Int::Raw rows[4], raw[4];
+      for (int j = 0; j < 4; ++j) rows[j] = hn::Load(IntTag(), sums.rows[j].of_lane);
+      Transpose(IntTag(), rows, raw);
+      for (int i = 0; i < 4; ++i) of_channel[i] = raw[i];
+    } else
+#endif
+    {
+      for (int i = 0; i < 4; ++i) of_channel[i] = sums.of_channel[i];
     }
     const IntOf<T> middle(data.wide ? 32768 * static_cast<std::int32_t>(kWeightSum<T>) : 0);
-    const auto number = [&](IntOf<T> sum) HWY_ATTR { return FromInt<T>(sum + middle) * scale; };
-    if constexpr ((kChannels & kR) != 0) c.x = number(r);
-    if constexpr ((kChannels & kG) != 0) c.y = number(g);
-    if constexpr ((kChannels & kB) != 0) c.z = number(b);
-    if constexpr ((kChannels & kA) != 0) c.w = number(a);
+    const auto number = [&](int i) HWY_ATTR { return FromInt<T>(of_channel[i] + middle) * scale; };
+    if constexpr ((kChannels & kR) != 0) c.x = number(0);
+    if constexpr ((kChannels & kG) != 0) c.y = number(1);
+    if constexpr ((kChannels & kB) != 0) c.z = number(2);
+    if constexpr ((kChannels & kA) != 0) c.w = number(3);
   } else {
     const T middle(data.wide ? 32768.0f : 0.0f);
     const auto number = [&](int channel) { return (sums.of_channel[channel] + middle) * scale; };

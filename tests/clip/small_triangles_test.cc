@@ -142,7 +142,8 @@ TEST(SmallTriangles, KnownCoverageIsExact) {
       const SampleReach reach = ReachOf(samples);
       const Primitive soup = Soup(random, 2000, false);
       int known = 0, wide = 0;
-      for (const TriangleRecord& r : Assemble(view, PlaceDrawable(view, soup, glm::dmat4(1.0), true), samples).chunk.records) {
+      const Assembled out = Assemble(view, PlaceDrawable(view, soup, glm::dmat4(1.0), true), samples);
+      for (const TriangleRecord& r : out.chunk.records) {
         const auto [low_x, high_x] = std::minmax({r.x_fx8[0], r.x_fx8[1], r.x_fx8[2]});
         const auto [low_y, high_y] = std::minmax({r.y_fx8[0], r.y_fx8[1], r.y_fx8[2]});
         std::uint32_t expected = 0;

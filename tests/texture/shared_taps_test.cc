@@ -56,7 +56,7 @@ TEST(SharedTaps, TexturesThatAreReadTogetherAreThoseThatAreReadAlone) {
     for (int k = 0; k < count; ++k) {
       lanes::TexelSums<float> alone;
       lanes::SumTexels(1, together + k, taps, &alone);
-      for (int c = 0; c < 4; ++c) EXPECT_EQ(all[k].of_lane[c], alone.of_lane[c]) << count << " " << k << " " << c;
+      for (int c = 0; c < 4; ++c) EXPECT_EQ(all[k].of_channel[c], alone.of_channel[c]) << count << " " << k << " " << c;
     }
   }
 }

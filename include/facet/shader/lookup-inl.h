@@ -118,28 +118,32 @@ HWY_INLINE hn::Vec<D64> PairsInOrder(D64 d, const std::int32_t* p, const std::in
     return hn::Combine(d, PairsInOrder<kScale>(half, p, at + hn::MaxLanes(half)), PairsInOrder<kScale>(half, p, at));
   }
 }
-// The four numbers at p + at[0], those at p + at[4], and so on, side by side.
+// The 16 bytes at p + kScale * at[0], those at p + kScale * at[4], and so on, side by side: of every fourth lane.
 template <int kScale, class D, class Number>
 HWY_INLINE hn::Vec<D> EveryFourthRow(D d, const Number* p, const std::int32_t* at) {
-  if constexpr (hn::MaxLanes(D()) == 4) {
+  constexpr std::size_t kRows = hn::MaxLanes(D()) * sizeof(hn::TFromD<D>) / 16;
+  if constexpr (kRows == 1) {
     return hn::LoadU(d, p + std::ptrdiff_t(at[0]) * kScale);
   } else {
     const hn::Half<D> half;
-    return hn::Combine(d, EveryFourthRow<kScale>(half, p, at + hn::MaxLanes(half)),
-                       EveryFourthRow<kScale>(half, p, at));
+    return hn::Combine(d, EveryFourthRow<kScale>(half, p, at + 2 * kRows), EveryFourthRow<kScale>(half, p, at));
   }
 }
-// Four numbers for each lane.
-template <int kScale, class D, class Number>
-HWY_INLINE void TransposedRows(D d, const Number* p, const std::int32_t* at, hn::Vec<D>* out) {
-  const auto r0 = EveryFourthRow<kScale>(d, p, at), r1 = EveryFourthRow<kScale>(d, p, at + 1),
-             r2 = EveryFourthRow<kScale>(d, p, at + 2), r3 = EveryFourthRow<kScale>(d, p, at + 3);
-  const auto xy02 = hn::InterleaveLower(d, r0, r2), zw02 = hn::InterleaveUpper(d, r0, r2);
-  const auto xy13 = hn::InterleaveLower(d, r1, r3), zw13 = hn::InterleaveUpper(d, r1, r3);
+// Four numbers for each lane, from rows[j] with those of lanes j, j + 4 and so on.
+template <class D>
+HWY_INLINE void Transpose(D d, const hn::Vec<D> (&rows)[4], hn::Vec<D>* out) {
+  const auto xy02 = hn::InterleaveLower(d, rows[0], rows[2]), zw02 = hn::InterleaveUpper(d, rows[0], rows[2]);
+  const auto xy13 = hn::InterleaveLower(d, rows[1], rows[3]), zw13 = hn::InterleaveUpper(d, rows[1], rows[3]);
   out[0] = hn::InterleaveLower(d, xy02, xy13);
   out[1] = hn::InterleaveUpper(d, xy02, xy13);
   out[2] = hn::InterleaveLower(d, zw02, zw13);
   out[3] = hn::InterleaveUpper(d, zw02, zw13);
+}
+template <int kScale, class D, class Number>
+HWY_INLINE void TransposedRows(D d, const Number* p, const std::int32_t* at, hn::Vec<D>* out) {
+  const hn::Vec<D> rows[4] = {EveryFourthRow<kScale>(d, p, at), EveryFourthRow<kScale>(d, p, at + 1),
+                              EveryFourthRow<kScale>(d, p, at + 2), EveryFourthRow<kScale>(d, p, at + 3)};
+  Transpose(d, rows, out);
 }
 #endif
 
@@ -207,26 +211,27 @@ HWY_INLINE Vec4<T> FetchVec4(const float* p, IntOf<T> index) {
 }
 
 // (w[0] p[i[0]] + w[1] p[i[1]]) + (w[2] p[i[2]] + w[3] p[i[3]]), of three numbers side by side in memory, of four that
-// can be read: bilinear reading. Each lane's is made for itself, its numbers side by side, and all are transposed at the
-// end, which takes a fourth of the shuffles of transposing what is read.
+// can be read: bilinear reading. Numbers are weighed as they lie and the sums transposed, which takes a fourth of the
+// shuffles of transposing what is read.
 template <class T>
 HWY_INLINE Vec3<T> WeighFour(const float* p, const IntOf<T> (&i)[4], const T (&w)[4]) {
 #if HWY_TARGET != HWY_SCALAR
   if constexpr (std::is_same_v<T, Float>) {
-    const hn::Full128<float> d;
+    const FloatTag d;
     alignas(64) std::int32_t at[4][kMaxLanes];
-    alignas(64) float weight[4][kMaxLanes], sums[4 * kMaxLanes];
-    for (int k = 0; k < 4; ++k) Store(i[k], at[k]), Store(w[k], weight[k]);
-    const std::size_t lanes = LaneCount();
-    for (std::size_t lane = 0; lane < lanes; ++lane) {
+    for (int k = 0; k < 4; ++k) Store(i[k], at[k]);
+    // Of lanes kRow, kRow + 4 and so on, each of whose weights is one of four in a block of a vector.
+    const auto sum = [&]<int kRow>(std::integral_constant<int, kRow>) HWY_ATTR {
       const auto term = [&](int k) HWY_ATTR {
-        return hn::Mul(hn::LoadU(d, p + at[k][lane]), hn::Set(d, weight[k][lane]));
+        return hn::Mul(EveryFourthRow<1>(d, p, at[k] + kRow), hn::Broadcast<kRow>(w[k].raw));
       };
-      hn::Store(hn::Add(hn::Add(term(0), term(1)), hn::Add(term(2), term(3))), d, sums + 4 * lane);
-    }
-    Float x, y, z, unused;
-    hn::LoadInterleaved4(FloatTag(), sums, x.raw, y.raw, z.raw, unused.raw);
-    return {x, y, z};
+      return hn::Add(hn::Add(term(0), term(1)), hn::Add(term(2), term(3)));
+    };
+    const Float::Raw rows[4] = {sum(std::integral_constant<int, 0>()), sum(std::integral_constant<int, 1>()),
+                                sum(std::integral_constant<int, 2>()), sum(std::integral_constant<int, 3>())};
+    Float::Raw out[4];
+    Transpose(d, rows, out);
+    return {out[0], out[1], out[2]};
   }
 #endif
   const auto term = [&](int k) HWY_ATTR { return Xyz(FetchVec4<T>(p, i[k])) * w[k]; };
