@@ -116,23 +116,39 @@ void TextureBuilder::Add(const Image& rows) {
   }
 }
 
-// The numbers of a picture's row that are kept, in linear light, channel by channel.
+// The numbers of a picture's row that are kept, in linear light, channel by channel. kStored of them a texel: compiled
+// apart, as most of the time would go into counting them.
+template <int kStored, class Number>
+void TextureBuilder::Expand(const Number* row) {
+  const Number* from[kStored];
+  const float* codes[kStored];
+  float* plane[kStored];
+  for (int k = 0; k < kStored; ++k) {
+    const bool alpha = channels_ % 2 == 0 && channel_of_[k] == channels_ - 1;
+    from[k] = row + channel_of_[k];
+    codes[k] = (alpha ? linear_ : color_).data();
+    plane[k] = Plane(0, next_row_, k);
+  }
+  const int width = width_, channels = channels_;
+  for (int x = 0, at = 0; x < width; ++x, at += channels) {
+    for (int k = 0; k < kStored; ++k) {
+      const Number code = from[k][at];
+      if constexpr (std::is_same_v<Number, float>) {
+        plane[k][x] = code > 0.0f ? std::min(code, 1.0f) : 0.0f;
+      } else {
+        plane[k][x] = codes[k][code];
+      }
+    }
+  }
+}
+
 template <class Number>
 void TextureBuilder::Expand(const Number* row) {
-  for (int k = 0; k < texture_.stored; ++k) {
-    const int from = channel_of_[k];
-    const bool alpha = channels_ % 2 == 0 && from == channels_ - 1;
-    const std::vector<float>& codes = alpha ? linear_ : color_;
-    const auto number = [&](Number code) {
-      if constexpr (std::is_same_v<Number, float>) {
-        return code > 0.0f ? std::min(code, 1.0f) : 0.0f;
-      } else {
-        return codes[code];
-      }
-    };
-    const Number* p = row + from;
-    float* plane = Plane(0, next_row_, k);
-    for (int x = 0; x < width_; ++x, p += channels_) plane[x] = number(*p);
+  switch (texture_.stored) {
+    case 1: return Expand<1>(row);
+    case 2: return Expand<2>(row);
+    case 3: return Expand<3>(row);
+    default: return Expand<4>(row);
   }
 }
 

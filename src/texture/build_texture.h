@@ -23,6 +23,8 @@ class TextureBuilder {
   void PlaceChannels(int channels);
   template <class Number>
   void Expand(const Number* row);
+  template <int kStored, class Number>
+  void Expand(const Number* row);
   float* Plane(int level, int y, int number);
   void FinishRow(int level, int y);
 
