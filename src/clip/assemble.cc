@@ -167,7 +167,8 @@ class Assembler {
     if (area < 0) std::swap(b, c), area = -area;
 
     const std::int32_t x_fx8[3] = {a.x_fx8, b.x_fx8, c.x_fx8}, y_fx8[3] = {a.y_fx8, b.y_fx8, c.y_fx8};
-    if (!MayCoverSample(x_fx8, y_fx8, samples_)) return void(++chunk_.culled);
+    const SampleCoverage coverage = CoverageOf(x_fx8, y_fx8, samples_);
+    if (!coverage.some) return void(++chunk_.culled);
     TriangleRecord& r = chunk_.records.emplace_back();
     std::copy_n(x_fx8, 3, r.x_fx8);
     std::copy_n(y_fx8, 3, r.y_fx8);
@@ -183,6 +184,7 @@ class Assembler {
     r.primitive = primitive;
     r.kind = kind;
     r.back_facing = back;
+    r.covered = coverage.covered;
   }
 
   const FrameView& view_;

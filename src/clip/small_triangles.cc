@@ -38,7 +38,8 @@ HWY_INLINE CornerLanes Select(Mask m, const CornerLanes& a, const CornerLanes& b
 }
 
 // Which samples of the 2 x 2 pixels from (first_x, first_y) on a triangle covers, by the rasterizer's edge functions
-// and fill rule, as TriangleRecord::covered has them. Its corners lie clockwise, a few pixels from there.
+// and fill rule, as TriangleRecord::covered has them. Its corners lie clockwise, less than 3 pixels from one another:
+// every term is below 2^21. (Other lanes wrap, and are not asked.)
 HWY_INLINE Int CoveredSamples(const Int (&x_fx8)[3], const Int (&y_fx8)[3], Int first_x, Int first_y, int samples) {
   const Int x0 = ShiftLeft<kSubpixelBits>(first_x), y0 = ShiftLeft<kSubpixelBits>(first_y);
   Int a[3], b[3], c[3];
@@ -66,13 +67,13 @@ HWY_INLINE Int CoveredSamples(const Int (&x_fx8)[3], const Int (&y_fx8)[3], Int 
   return covered;
 }
 
-// Which triangles may cover a sample, and what they cover where that is known (TriangleRecord::covered).
-struct Coverage {
+// SampleCoverage of the lanes `asked`; of others, none.
+struct CoverageLanes {
   Mask some;
-  Int known;
+  Int covered;
 };
 
-HWY_INLINE Coverage CoverageOf(const Int (&x_fx8)[3], const Int (&y_fx8)[3], int samples) {
+HWY_INLINE CoverageLanes FindCoverage(const Int (&x_fx8)[3], const Int (&y_fx8)[3], int samples, Mask asked) {
   const auto first = [](const Int(&p)[3], int high) HWY_ATTR {
     const Int low = Min(Min(p[0], p[1]), p[2]);
     return ShiftRightArithmetic<kSubpixelBits>(low + Int(kSubpixelScale - 1 - high));  // FirstPixel()
@@ -83,7 +84,7 @@ HWY_INLINE Coverage CoverageOf(const Int (&x_fx8)[3], const Int (&y_fx8)[3], int
   const SampleReach reach = ReachOf(samples);
   const Int first_x = first(x_fx8, reach.high_x), last_x = last(x_fx8, reach.low_x);
   const Int first_y = first(y_fx8, reach.high_y), last_y = last(y_fx8, reach.low_y);
-  const Mask some = !((first_x > last_x) | (first_y > last_y));
+  const Mask some = asked & !((first_x > last_x) | (first_y > last_y));
   const Mask few = some & (last_x - first_x < Int(2)) & (last_y - first_y < Int(2));
   if (!Any(few)) return {some, Int(0)};
   const Int covered = Select(few, CoveredSamples(x_fx8, y_fx8, first_x, first_y, samples), Int(0));
@@ -148,8 +149,8 @@ SmallTriangles SetUpSmallTrianglesKernel(const TriangleRun& run, std::vector<Tri
     const CornerLanes b = Select(turned, third, second), c = Select(turned, second, third);
     Mask seen = in_view & (!(area == Int(0)));
     if (!double_sided) seen = seen & (!back);
-    const Coverage coverage = CoverageOf({a.x, b.x, c.x}, {a.y, b.y, c.y}, run.samples);
-    seen = seen & coverage.some;
+    const CoverageLanes coverage = FindCoverage({a.x, b.x, c.x}, {a.y, b.y, c.y}, run.samples, seen);
+    seen = coverage.some;
     std::uint32_t seen_bits = BitsOf(seen);
     const auto in_view_count = static_cast<std::uint32_t>(__builtin_popcount(BitsOf(in_view)));
     const auto seen_count = static_cast<std::uint32_t>(__builtin_popcount(seen_bits));
@@ -164,7 +165,7 @@ SmallTriangles SetUpSmallTrianglesKernel(const TriangleRun& run, std::vector<Tri
       Store(corner[k]->y, y[k]);
       Store(corner[k]->depth, depth[k]);
     }
-    Store(coverage.known, covered);
+    Store(coverage.covered, covered);
     Store(b.x - a.x, x1);
     Store(b.y - a.y, y1);
     Store(c.x - a.x, x2);
@@ -194,9 +195,12 @@ SmallTriangles SetUpSmallTrianglesKernel(const TriangleRun& run, std::vector<Tri
   return result;
 }
 
-bool MayCoverSampleKernel(const std::int32_t (&x_fx8)[3], const std::int32_t (&y_fx8)[3], int samples) {
-  return Any(CoverageOf({Int(x_fx8[0]), Int(x_fx8[1]), Int(x_fx8[2])}, {Int(y_fx8[0]), Int(y_fx8[1]), Int(y_fx8[2])},
-                        samples).some);
+SampleCoverage CoverageKernel(const std::int32_t (&x_fx8)[3], const std::int32_t (&y_fx8)[3], int samples) {
+  const CoverageLanes lanes = FindCoverage({Int(x_fx8[0]), Int(x_fx8[1]), Int(x_fx8[2])},
+                                           {Int(y_fx8[0]), Int(y_fx8[1]), Int(y_fx8[2])}, samples, Mask(true));
+  alignas(64) std::int32_t covered[kMaxLanes];
+  Store(lanes.covered, covered);
+  return {Any(lanes.some), static_cast<std::uint32_t>(covered[0])};
 }
 
 }  // namespace HWY_NAMESPACE
@@ -207,14 +211,14 @@ HWY_AFTER_NAMESPACE();
 namespace facet {
 
 FACET_EXPORT(SetUpSmallTrianglesKernel);
-FACET_EXPORT(MayCoverSampleKernel);
+FACET_EXPORT(CoverageKernel);
 
 SmallTriangles SetUpSmallTriangles(const TriangleRun& run, std::vector<TriangleRecord>& records) {
   return FACET_DISPATCH(SetUpSmallTrianglesKernel)(run, records);
 }
 
-bool MayCoverSample(const std::int32_t (&x_fx8)[3], const std::int32_t (&y_fx8)[3], int samples) {
-  return FACET_DISPATCH(MayCoverSampleKernel)(x_fx8, y_fx8, samples);
+SampleCoverage CoverageOf(const std::int32_t (&x_fx8)[3], const std::int32_t (&y_fx8)[3], int samples) {
+  return FACET_DISPATCH(CoverageKernel)(x_fx8, y_fx8, samples);
 }
 
 }  // namespace facet

@@ -8,9 +8,12 @@
 
 namespace facet {
 
-// Whether a triangle, its corners clockwise, may cover a sample. Exact for one that spans the samples of at most 2 x 2
-// pixels; of a larger one it says whether its bounding box holds a sample.
-bool MayCoverSample(const std::int32_t (&x_fx8)[3], const std::int32_t (&y_fx8)[3], int samples);
+// What a triangle, its corners clockwise, covers.
+struct SampleCoverage {
+  bool some;              // false: no sample. Of a triangle beyond 2 x 2 pixels its bounding box alone is asked
+  std::uint32_t covered;  // TriangleRecord::covered
+};
+SampleCoverage CoverageOf(const std::int32_t (&x_fx8)[3], const std::int32_t (&y_fx8)[3], int samples);
 
 // The largest extent of a small triangle: twice its area fits 32 bits.
 inline constexpr std::int32_t kSmallTriangle_fx8 = (1 << 15) - 1;

@@ -19,7 +19,8 @@ inline constexpr int kGuardBand = 1 << 14;  // pixels, from the centre
 inline constexpr std::int64_t kMaxDelta_fx8 = std::int64_t{2 * kGuardBand} << kSubpixelBits;  // of an edge
 
 // --- Blocks -------------------------------------------------------------------------------------------------------------
-// Coverage is decided in blocks of 8 x 8 pixels, with 64-bit edge functions at the block's corner and 32-bit ones inside.
+// Coverage is decided in blocks of 8 x 8 pixels, with 64-bit edge functions at the block's corner and 32-bit ones inside;
+// for triangles of few pixels, where they are set up (TriangleRecord::covered).
 inline constexpr int kBlockSize = 8;
 inline constexpr int kBlockPixels = kBlockSize * kBlockSize;
 

@@ -26,7 +26,7 @@ void RasterOpaque(const TileTriangles& triangles, TileBuffers& tile);
 enum class CollectDepth : std::uint8_t { Nearer, NearerOrEqual };
 
 // Collects the fragments of triangles that pass the depth test against the tile, which stays as it is. In triangle
-// order.
+// order; those of one triangle in any.
 void RasterCollect(const TileTriangles& triangles, const TileBuffers& tile, FragmentList& out,
                    CollectDepth test = CollectDepth::Nearer);
 

@@ -179,17 +179,39 @@ class FloatShader final : public FragmentShader {
   }
 };
 
+// The first textures of the material alike, and so the others: read at the same places, together.
+Scene TexturedInGroups(int first_group) {
+  Scene scene = EverythingTextured();
+  Material& m = scene.materials[0];
+  TextureRef* const refs[5] = {&m.base_color_texture, &m.metallic_roughness_texture, &m.normal_texture,
+                               &m.occlusion_texture, &m.emissive_texture};
+  for (int k = 0; k < 5; ++k) {
+    const int size = k < first_group ? 64 : 24;
+    const Image picture = Picture(size, size, [k](int x, int y) {
+      return glm::u8vec4(60 + (x * 37 + k * 50) % 190, 50 + (y * 53 + k * 31) % 200, 90 + (x * y * 7 + k) % 160, 255);
+    });
+    *refs[k] = Ref(AddTexture(scene, picture));
+    refs[k]->scale = {9.0f, 4.0f};
+  }
+  return scene;
+}
+
 TEST(ShadeFragments, FloatByFloatGivesTheLanesBits) {
   const FloatShader shader;
   std::vector<Scene> scenes = {EverythingTextured()};
+  for (const int first_group : {5, 4, 3}) scenes.push_back(TexturedInGroups(first_group));
   for (const char* name : {"room", "showcase"}) scenes.push_back(LoadGltf(Bundled(name)).scene);
   for (const Scene& scene : scenes) {
     RenderSettings settings;
     settings.width = settings.height = 96;
     settings.environment_size = 256;
-    const Film lanes = Render(scene, settings);
     settings.shader = &shader;
-    EXPECT_TRUE(SameBytes(lanes, Render(scene, settings)));
+    const Film one_by_one = Render(scene, settings);
+    settings.shader = nullptr;
+    for (const Target target : AvailableTargets()) {
+      const ScopedTarget scoped(target);
+      EXPECT_TRUE(SameBytes(Render(scene, settings), one_by_one)) << TargetName(target);
+    }
   }
 }
 
