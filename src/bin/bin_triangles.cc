@@ -14,13 +14,9 @@ struct TileRange {
 };
 
 TileRange TilesOf(const TileGrid& grid, int tile_bits_fx8, const TriangleRecord& r) {
-  // Pairs, and not lists of three, become instructions without a branch.
-  const std::int32_t min_x = std::min(std::min(r.x_fx8[0], r.x_fx8[1]), r.x_fx8[2]);
-  const std::int32_t min_y = std::min(std::min(r.y_fx8[0], r.y_fx8[1]), r.y_fx8[2]);
-  const std::int32_t max_x = std::max(std::max(r.x_fx8[0], r.x_fx8[1]), r.x_fx8[2]);
-  const std::int32_t max_y = std::max(std::max(r.y_fx8[0], r.y_fx8[1]), r.y_fx8[2]);
-  return {std::max(min_x >> tile_bits_fx8, 0), std::max(min_y >> tile_bits_fx8, 0),
-          std::min(max_x >> tile_bits_fx8, grid.columns - 1), std::min(max_y >> tile_bits_fx8, grid.rows - 1)};
+  return {std::max(LeastOf(r.x_fx8) >> tile_bits_fx8, 0), std::max(LeastOf(r.y_fx8) >> tile_bits_fx8, 0),
+          std::min(GreatestOf(r.x_fx8) >> tile_bits_fx8, grid.columns - 1),
+          std::min(GreatestOf(r.y_fx8) >> tile_bits_fx8, grid.rows - 1)};
 }
 
 // False when the whole tile lies outside one edge. Conservative: exact at the tile's outer corners.

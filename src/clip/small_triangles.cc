@@ -67,23 +67,28 @@ HWY_INLINE Int CoveredSamples(const Int (&x_fx8)[3], const Int (&y_fx8)[3], Int 
   return covered;
 }
 
+struct BoxLanes {
+  Int low_x, high_x, low_y, high_y;
+  HWY_INLINE BoxLanes(const Int (&x)[3], const Int (&y)[3])
+      : low_x(Min(Min(x[0], x[1]), x[2])), high_x(Max(Max(x[0], x[1]), x[2])),
+        low_y(Min(Min(y[0], y[1]), y[2])), high_y(Max(Max(y[0], y[1]), y[2])) {}
+};
+
 // SampleCoverage of the lanes `asked`; of others, none.
 struct CoverageLanes {
   Mask some;
   Int covered;
 };
 
-HWY_INLINE CoverageLanes FindCoverage(const Int (&x_fx8)[3], const Int (&y_fx8)[3], int samples, Mask asked) {
-  const auto first = [](const Int(&p)[3], int high) HWY_ATTR {
-    const Int low = Min(Min(p[0], p[1]), p[2]);
-    return ShiftRightArithmetic<kSubpixelBits>(low + Int(kSubpixelScale - 1 - high));  // FirstPixel()
+HWY_INLINE CoverageLanes FindCoverage(const Int (&x_fx8)[3], const Int (&y_fx8)[3], const BoxLanes& box, int samples,
+                                      Mask asked) {
+  const auto first = [](Int low, int high) HWY_ATTR {  // FirstPixel()
+    return ShiftRightArithmetic<kSubpixelBits>(low + Int(kSubpixelScale - 1 - high));
   };
-  const auto last = [](const Int(&p)[3], int low) HWY_ATTR {
-    return ShiftRightArithmetic<kSubpixelBits>(Max(Max(p[0], p[1]), p[2]) - Int(low));
-  };
+  const auto last = [](Int high, int low) HWY_ATTR { return ShiftRightArithmetic<kSubpixelBits>(high - Int(low)); };
   const SampleReach reach = ReachOf(samples);
-  const Int first_x = first(x_fx8, reach.high_x), last_x = last(x_fx8, reach.low_x);
-  const Int first_y = first(y_fx8, reach.high_y), last_y = last(y_fx8, reach.low_y);
+  const Int first_x = first(box.low_x, reach.high_x), last_x = last(box.high_x, reach.low_x);
+  const Int first_y = first(box.low_y, reach.high_y), last_y = last(box.high_y, reach.low_y);
   const Mask some = asked & !((first_x > last_x) | (first_y > last_y));
   const Mask few = some & (last_x - first_x < Int(2)) & (last_y - first_y < Int(2));
   if (!Any(few)) return {some, Int(0)};
@@ -137,10 +142,10 @@ SmallTriangles SetUpSmallTrianglesKernel(const TriangleRun& run, std::vector<Tri
     const Int all = a.outcode & second.outcode & third.outcode, any = a.outcode | second.outcode | third.outcode;
     const Mask present = LaneIndex() < Int(static_cast<std::int32_t>(n));
     const Mask in_view = present & (((all & Int(kOutReject)) | (any & Int(kOutNotFinite))) == Int(0));
-    const Int low_x = Min(Min(a.x, second.x), third.x), high_x = Max(Max(a.x, second.x), third.x);
-    const Int low_y = Min(Min(a.y, second.y), third.y), high_y = Max(Max(a.y, second.y), third.y);
+    const BoxLanes box({a.x, second.x, third.x}, {a.y, second.y, third.y});
     const Int most(kSmallTriangle_fx8 + 1);
-    const Mask small = ((any & Int(kOutClip)) == Int(0)) & (high_x - low_x < most) & (high_y - low_y < most);
+    const Mask small = ((any & Int(kOutClip)) == Int(0)) & (box.high_x - box.low_x < most) &
+                       (box.high_y - box.low_y < most);
     if (Any(in_view & (!small))) break;
 
     const Int area = (second.x - a.x) * (third.y - a.y) - (third.x - a.x) * (second.y - a.y);
@@ -149,7 +154,7 @@ SmallTriangles SetUpSmallTrianglesKernel(const TriangleRun& run, std::vector<Tri
     const CornerLanes b = Select(turned, third, second), c = Select(turned, second, third);
     Mask seen = in_view & (!(area == Int(0)));
     if (!double_sided) seen = seen & (!back);
-    const CoverageLanes coverage = FindCoverage({a.x, b.x, c.x}, {a.y, b.y, c.y}, run.samples, seen);
+    const CoverageLanes coverage = FindCoverage({a.x, b.x, c.x}, {a.y, b.y, c.y}, box, run.samples, seen);
     seen = coverage.some;
     std::uint32_t seen_bits = BitsOf(seen);
     const auto in_view_count = static_cast<std::uint32_t>(__builtin_popcount(BitsOf(in_view)));
@@ -196,8 +201,8 @@ SmallTriangles SetUpSmallTrianglesKernel(const TriangleRun& run, std::vector<Tri
 }
 
 SampleCoverage CoverageKernel(const std::int32_t (&x_fx8)[3], const std::int32_t (&y_fx8)[3], int samples) {
-  const CoverageLanes lanes = FindCoverage({Int(x_fx8[0]), Int(x_fx8[1]), Int(x_fx8[2])},
-                                           {Int(y_fx8[0]), Int(y_fx8[1]), Int(y_fx8[2])}, samples, Mask(true));
+  const Int x[3] = {Int(x_fx8[0]), Int(x_fx8[1]), Int(x_fx8[2])}, y[3] = {Int(y_fx8[0]), Int(y_fx8[1]), Int(y_fx8[2])};
+  const CoverageLanes lanes = FindCoverage(x, y, BoxLanes(x, y), samples, Mask(true));
   alignas(64) std::int32_t covered[kMaxLanes];
   Store(lanes.covered, covered);
   return {Any(lanes.some), static_cast<std::uint32_t>(covered[0])};

@@ -1,6 +1,7 @@
 // What passes between the geometry stages (vertex, clip, bin) and the tiles.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <vector>
@@ -79,6 +80,10 @@ struct TriangleRecord {
   std::uint32_t covered;
   TriangleRecord() : primitive(0), kind(RecordKind::Triangle), back_facing(false), covered(0) {}  // NOLINT: rest unset
 };
+
+// Of three coordinates. (Pairs, and not lists of three, become instructions without a branch.)
+inline std::int32_t LeastOf(const std::int32_t (&p)[3]) { return std::min(std::min(p[0], p[1]), p[2]); }
+inline std::int32_t GreatestOf(const std::int32_t (&p)[3]) { return std::max(std::max(p[0], p[1]), p[2]); }
 
 // A run of one drawable's primitives, processed by one task. Chunk order is submission order.
 struct TriangleChunk {

@@ -82,11 +82,8 @@ struct BlockRange {
   bool small;                // no larger than a block, so that it covers none wholly
 
   HWY_INLINE BlockRange(const TriangleRecord& r, const TileBuffers& tile) {
-    // Pairs, and not lists of three, become instructions without a branch.
-    const int min_x = std::min(std::min(r.x_fx8[0], r.x_fx8[1]), r.x_fx8[2]);
-    const int min_y = std::min(std::min(r.y_fx8[0], r.y_fx8[1]), r.y_fx8[2]);
-    const int max_x = std::max(std::max(r.x_fx8[0], r.x_fx8[1]), r.x_fx8[2]);
-    const int max_y = std::max(std::max(r.y_fx8[0], r.y_fx8[1]), r.y_fx8[2]);
+    const int min_x = LeastOf(r.x_fx8), max_x = GreatestOf(r.x_fx8);
+    const int min_y = LeastOf(r.y_fx8), max_y = GreatestOf(r.y_fx8);
     const int last_column_px = std::min((max_x >> kSubpixelBits) - tile.x0, tile.width - 1);
     const int first_column_px = std::max((min_x >> kSubpixelBits) - tile.x0, 0);
     first_row = std::max((min_y >> kSubpixelBits) - tile.y0, 0);
@@ -104,8 +101,8 @@ template <bool kOrEqual, int kSamples, class Visit, class EndPixel>
 HWY_INLINE void VisitKnownCoverage(const TriangleRecord& r, const TileBuffers& tile, const SampleReach& reach,
                                    const Visit& visit, const EndPixel& end_pixel) {
   const SamplePosition* pattern = SamplePattern(tile.Samples<kSamples>());
-  const int first_x = FirstPixel(std::min(std::min(r.x_fx8[0], r.x_fx8[1]), r.x_fx8[2]), reach.high_x) - tile.x0;
-  const int first_y = FirstPixel(std::min(std::min(r.y_fx8[0], r.y_fx8[1]), r.y_fx8[2]), reach.high_y) - tile.y0;
+  const int first_x = FirstPixel(LeastOf(r.x_fx8), reach.high_x) - tile.x0;
+  const int first_y = FirstPixel(LeastOf(r.y_fx8), reach.high_y) - tile.y0;
   for (std::uint32_t left = r.covered; left != 0;) {
     const int pixel = __builtin_ctz(left) / 8;
     std::uint32_t samples = left & 0xFFu << 8 * pixel;
