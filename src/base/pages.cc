@@ -14,29 +14,68 @@ namespace {
 
 constexpr std::size_t kHugePage = std::size_t{2} << 20;
 
-bool IsLarge(std::size_t bytes) { return bytes >= 2 * kHugePage; }
+bool IsLarge(std::size_t bytes) { return bytes >= kLargeArray; }
+
+#ifdef __linux__
+std::size_t WholePages(std::size_t bytes) { return (bytes + kHugePage - 1) / kHugePage * kHugePage; }
+
+// Begins where a huge page does.
+void* MapPages(std::size_t bytes) {
+  const std::size_t whole = WholePages(bytes);
+  void* const mapped =
+      ::mmap(nullptr, whole + kHugePage, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (mapped == MAP_FAILED) throw std::bad_alloc();
+  auto* const first = static_cast<std::byte*>(mapped);
+  const std::size_t before = -reinterpret_cast<std::uintptr_t>(mapped) % kHugePage;
+  if (before > 0) ::munmap(first, before);
+  if (before < kHugePage) ::munmap(first + before + whole, kHugePage - before);
+  return first + before;
+}
+#endif
 
 }  // namespace
 
 void* AllocatePages(std::size_t bytes) {
-  if (bytes > std::size_t(PTRDIFF_MAX)) throw std::bad_alloc();
-  const std::size_t whole = (bytes + kHugePage - 1) / kHugePage * kHugePage;
-  void* memory = IsLarge(bytes) ? std::aligned_alloc(kHugePage, whole) : std::malloc(std::max<std::size_t>(bytes, 1));
+  if (bytes > std::size_t(PTRDIFF_MAX) - 2 * kHugePage) throw std::bad_alloc();
+#ifdef __linux__
+  void* memory = IsLarge(bytes) ? MapPages(bytes) : std::malloc(std::max<std::size_t>(bytes, 1));
+#else
+  void* memory = IsLarge(bytes) ? std::calloc(bytes, 1) : std::malloc(std::max<std::size_t>(bytes, 1));
+#endif
   if (memory == nullptr) throw std::bad_alloc();
   PreferHugePages(memory, bytes);
   return memory;
 }
 
 // Of both kinds. (Clang 14 runs both of two forms of operator delete, whichever is asked for.)
-void FreePages(void* memory) { std::free(memory); }
-
-void PreferHugePages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) {
+void FreePages(void* memory, [[maybe_unused]] std::size_t bytes) {
 #ifdef __linux__
+  if (IsLarge(bytes)) {
+    ::munmap(memory, WholePages(bytes));
+    return;
+  }
+#endif
+  std::free(memory);
+}
+
+#ifdef __linux__
+namespace {
+
+// Of the huge pages that lie within. What madvise answers is no matter.
+void Advise(void* memory, std::size_t bytes, int advice) {
   if (!IsLarge(bytes)) return;
   const auto begin = (reinterpret_cast<std::uintptr_t>(memory) + kHugePage - 1) / kHugePage * kHugePage;
   const auto end = (reinterpret_cast<std::uintptr_t>(memory) + bytes) / kHugePage * kHugePage;
-  if (begin < end) ::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);  // what it answers is no matter
-#endif
+  if (begin < end) ::madvise(reinterpret_cast<void*>(begin), end - begin, advice);
 }
+
+}  // namespace
+
+void PreferHugePages(void* memory, std::size_t bytes) { Advise(memory, bytes, MADV_HUGEPAGE); }
+void PreferSmallPages(void* memory, std::size_t bytes) { Advise(memory, bytes, MADV_NOHUGEPAGE); }
+#else
+void PreferHugePages(void*, std::size_t) {}
+void PreferSmallPages(void*, std::size_t) {}
+#endif
 
 }  // namespace facet

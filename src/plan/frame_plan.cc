@@ -84,7 +84,8 @@ class Planner {
       }
       use.slot.sampler = texture.sampler;
       use.slot.sampler.mip = std::min(texture.sampler.mip, settings_.mip_filter);
-      planned.textures[i] = TextureFor(texture.image, use.role, use.slot.sampler.mip != MipFilter::None, use.channels);
+      planned.textures[i] = TextureFor(texture.image, use.role, use.slot.sampler.mip != MipFilter::None, use.channels,
+                                       use.feature == kEmissiveTexture);
       use.slot.max_anisotropy = static_cast<float>(settings_.max_anisotropy);
       use.slot.uv_slot = SlotFor(f, use.ref.tex_coord);
       SetTransform(use.ref, use.slot);
@@ -114,12 +115,13 @@ class Planner {
     leave_out(Feature::Blending, m.alpha_mode == AlphaMode::Blend, opaque);
   }
 
-  int TextureFor(int image, TextureRole role, bool mips, int channels) {
+  int TextureFor(int image, TextureRole role, bool mips, int channels, bool emission) {
     const auto [known, is_new] = textures_.try_emplace({image, role}, static_cast<int>(plan.textures.size()));
-    if (is_new) plan.textures.push_back({image, role, false, 0});
+    if (is_new) plan.textures.push_back({image, role, false, 0, true});
     PlannedTexture& planned = plan.textures[std::size_t(known->second)];
     planned.mips |= mips;
     planned.channels |= channels;
+    planned.emission &= emission;
     return known->second;
   }
 

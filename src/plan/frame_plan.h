@@ -19,6 +19,7 @@ struct PlannedTexture {
   TextureRole role = TextureRole::Data;
   bool mips = false;
   int channels = 0;  // that are read: bits of ChannelMask
+  bool emission = false;  // read for nothing else
 
   bool operator==(const PlannedTexture&) const = default;
 };

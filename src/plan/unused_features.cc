@@ -8,7 +8,7 @@ namespace {
 
 // A white texture of one texel, as FramePlan::textures has it; made where it is missing.
 int WhiteTexture(TextureRole role, FramePlan& plan) {
-  const PlannedTexture white{kWhiteImage, role, false, kRgba};
+  const PlannedTexture white{kWhiteImage, role, false, kRgba, false};
   const auto place = std::find(plan.textures.begin(), plan.textures.end(), white);
   const int index = static_cast<int>(place - plan.textures.begin());
   if (place == plan.textures.end()) plan.textures.push_back(white);
@@ -39,6 +39,7 @@ void UseWhiteTextures(PlannedMaterial& material, FramePlan& plan) {
 }  // namespace
 
 void UseEverything(const RenderSettings& settings, FramePlan& plan) {
+  for (PlannedTexture& texture : plan.textures) texture.emission = false;  // read where it is dark, too
   for (PlannedMaterial& material : plan.materials) UseWhiteTextures(material, plan);
   if (!plan.alpha_test) {
     for (PlannedMaterial& material : plan.materials) {

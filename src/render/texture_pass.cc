@@ -118,7 +118,9 @@ void DecodeTextures(const Scene& scene, const std::vector<bool>& material_visibl
         std::map<FrameTextures::Entry*, TextureBuilder> builders;
         source.DecodeRows([&](const Image& rows, int height) {
           for_each_role([&](const PlannedTexture& planned, FrameTextures::Entry& entry) {
-            builders.try_emplace(&entry, rows, height, planned.role, planned.mips, texels, planned.channels)
+            builders
+                .try_emplace(&entry, rows, height, planned.role, planned.mips, texels, planned.channels,
+                             planned.emission)
                 .first->second.Add(rows);
           });
         });

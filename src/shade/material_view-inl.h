@@ -31,34 +31,46 @@ class TextureReader {
     const TexturesOf all(m);
     for (int k = 0; k < all.count; ++k) {
       if (k == 0) Find(*all.slots[0]);
-      if (HaveSameTaps(*made_for_, *all.slots[k])) PrefetchTexels(*all.slots[k]->data, taps_);
+      const TextureSlot& slot = *all.slots[k];
+      if (HaveSameTaps(*made_for_, slot) && !IsDark(slot, taps_)) PrefetchTexels(*slot.data, taps_);
     }
   }
 
-  // Reads all textures of the material, those that stand at the same places together.
+  // Reads all textures of the material, those that stand at the same places together; not emission where there is none.
   HWY_INLINE void ReadAll(const FrameMaterial& m) {
     TexturesOf left(m);
+    dark_ = nullptr;
     for (summed_count_ = 0; left.count > 0;) {
       Find(*left.slots[0]);
       const TextureData* together[5];
+      const TextureSlot* emission = nullptr;
       int count = 0, others = 0;
       for (int k = 0; k < left.count; ++k) {
         const TextureSlot* slot = left.slots[k];
-        if (HaveSameTaps(*made_for_, *slot)) {
+        if (!HaveSameTaps(*made_for_, *slot)) {
+          left.slots[others++] = slot;
+        } else if (slot->data->dark.width > 0) {
+          emission = slot;
+        } else {
           summed_[summed_count_ + count] = slot;
           together[count++] = slot->data;
-        } else {
-          left.slots[others++] = slot;
         }
       }
-      SumTexels(count, together, taps_, sums_ + summed_count_);
+      if (count > 0) SumTexels(count, together, taps_, sums_ + summed_count_);
       summed_count_ += count;
+      if (emission != nullptr && IsDark(*emission, taps_)) {
+        dark_ = emission;
+      } else if (emission != nullptr) {
+        SumTexels<1, T>(&emission->data, taps_, sums_ + summed_count_);
+        summed_[summed_count_++] = emission;
+      }
       left.count = others;
     }
   }
 
   template <int kChannels>
   HWY_INLINE Vec4<T> Read(const TextureSlot& slot) {
+    if (&slot == dark_) return {T(0.0f), T(0.0f), T(0.0f), T(0.0f)};
     for (int k = 0; k < summed_count_; ++k) {
       if (summed_[k] == &slot) return ChannelsOf<kChannels>(*slot.data, sums_[k]);
     }
@@ -97,6 +109,7 @@ class TextureReader {
   int summed_count_ = 0;
   const TextureSlot* summed_[5];  // what ReadAll() has read
   TexelSums<T> sums_[5];
+  const TextureSlot* dark_ = nullptr;  // what ReadAll() has found black, without reading
 };
 
 // T is Float (lanes), float or double.

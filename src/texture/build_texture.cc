@@ -49,7 +49,7 @@ void LayOut(TextureData& texture, int picture_width, int picture_height, bool mi
 }  // namespace
 
 TextureBuilder::TextureBuilder(const Image& form, int height, TextureRole role, bool mips, TexelBits bits,
-                               int channels)
+                               int channels, bool emission)
     : width_(form.width), channels_(form.channels), type_(form.type) {
   const bool sized = width_ >= 1 && height >= 1 && form.height >= 1 && channels_ >= 1 && channels_ <= 4;
   if (!sized || form.bytes.size() / (std::size_t(channels_) * SizeOf(type_)) != form.PixelCount()) Refuse(form, height);
@@ -57,6 +57,12 @@ TextureBuilder::TextureBuilder(const Image& form, int height, TextureRole role, 
                                            : bits == TexelBits::Sixteen;
   PlaceChannels(channels);
   LayOut(texture_, width_, height, mips);
+  if (emission) {
+    leave_black_ = texture_.bytes.size() >= kLargeArray;
+    texture_.sparse = texture_.wide;
+    PreferSmallPages(texture_.bytes.data(), texture_.bytes.size());
+    PlaceCells();
+  }
   if (type_ != ChannelType::F32) {
     const int codes = type_ == ChannelType::U8 ? 256 : 65536;
     for (int i = 0; i < codes; ++i) linear_.push_back(static_cast<float>(i) / static_cast<float>(codes - 1));
@@ -155,10 +161,11 @@ void TextureBuilder::Expand(const Number* row) {
 // Stores a row whose planes are filled, and makes the row of the next level that it completes: of two rows, three where
 // a height is odd.
 void TextureBuilder::FinishRow(int level, int y) {
-  StoreRowTask store{{}, texture_.stored, texture_.level_width[level], texture_.wide,
+  StoreRowTask store{{}, texture_.stored, texture_.level_width[level], texture_.wide, texture_.sparse, leave_black_,
                      texture_.bytes.data() + texture_.ByteOf(level, y)};
   for (int k = 0; k < texture_.stored; ++k) store.planes[k] = Plane(level, y, k);
   StoreRow(store);
+  if (level == cell_level_) FindLitCells(y);
   if (level + 1 == texture_.levels) return;
   const int h = texture_.level_height[level], half = Half(h);
   const int taps = h == 1 ? 1 : h == 2 * half ? 2 : 3;
@@ -182,6 +189,32 @@ void TextureBuilder::FinishRow(int level, int y) {
   FinishRow(level + 1, i);
 }
 
+// A texel of a level is 0 only where all that it is the mean of is.
+void TextureBuilder::PlaceCells() {
+  constexpr int kMost = DarkCells::kMaxSide;
+  const auto fits = [&](int l) { return texture_.level_width[l] <= kMost && texture_.level_height[l] <= kMost; };
+  for (cell_level_ = 0; cell_level_ < texture_.levels && !fits(cell_level_);) ++cell_level_;
+  if (cell_level_ == texture_.levels || cell_level_ == 0) return;
+  DarkCells& dark = texture_.dark;
+  dark.width = texture_.level_width[cell_level_], dark.height = texture_.level_height[cell_level_];
+  dark.lit.resize(std::size_t(dark.width) * std::size_t(dark.height), 0);
+  // Less than a cell, so that no rounding of a place within it matters.
+  dark.reach = 0.9f * std::min(static_cast<float>(texture_.level_width[0]) / static_cast<float>(dark.width),
+                               static_cast<float>(texture_.level_height[0]) / static_cast<float>(dark.height));
+}
+
+void TextureBuilder::FindLitCells(int y) {
+  DarkCells& dark = texture_.dark;
+  for (int x = 0; x < dark.width; ++x) {
+    bool lit = false;
+    for (int k = 0; k < texture_.stored; ++k) lit = lit || Plane(cell_level_, y, k)[x] > 0.0f;
+    for (int n = 0; lit && n < 9; ++n) {
+      const int row = (y + n / 3 + dark.height - 1) % dark.height, column = (x + n % 3 + dark.width - 1) % dark.width;
+      dark.lit[std::size_t(row * dark.width + column)] = 1;
+    }
+  }
+}
+
 TextureData TextureBuilder::Finish() {
   if (next_row_ != texture_.level_height[0]) {
     throw Error(ErrorCode::InvalidInput, "a picture of " + std::to_string(texture_.level_height[0]) +
@@ -197,8 +230,8 @@ std::size_t TexelCount(int width, int height, bool mips) {
   }
 }
 
-TextureData BuildTexture(const Image& image, TextureRole role, bool mips, TexelBits bits, int channels) {
-  TextureBuilder builder(image, image.height, role, mips, bits, channels);
+TextureData BuildTexture(const Image& image, TextureRole role, bool mips, TexelBits bits, int channels, bool emission) {
+  TextureBuilder builder(image, image.height, role, mips, bits, channels, emission);
   builder.Add(image);
   return builder.Finish();
 }

@@ -11,7 +11,8 @@ namespace facet {
 class TextureBuilder {
  public:
   // `form` is some of the picture's rows, or all; `height` is the whole picture's. The rest as BuildTexture.
-  TextureBuilder(const Image& form, int height, TextureRole role, bool mips, TexelBits bits, int channels);
+  TextureBuilder(const Image& form, int height, TextureRole role, bool mips, TexelBits bits, int channels,
+                 bool emission);
 
   // The next rows, top to bottom. Throws Error(InvalidInput) where they are too many, or not of the picture's form.
   void Add(const Image& rows);
@@ -27,12 +28,16 @@ class TextureBuilder {
   void Expand(const Number* row);
   float* Plane(int level, int y, int number);
   void FinishRow(int level, int y);
+  void PlaceCells();
+  void FindLitCells(int y);
 
   int width_, channels_;     // of the picture
   int channel_of_[4] = {};   // of the picture, for each number of a texel
   ChannelType type_;
   TextureData texture_;
   int next_row_ = 0;
+  bool leave_black_ = false;  // texels that are black are not written: their memory is zero
+  int cell_level_ = -1;       // whose texels are TextureData::dark's cells
   std::vector<float> linear_, color_;     // of each code; empty for floats
   std::vector<std::vector<float>> rows_;  // of each level its last three rows, channel by channel
 };

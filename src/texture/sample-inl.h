@@ -28,20 +28,25 @@ struct AxisTaps {
   T fraction;
 };
 
-// `position` in [0, 1] units of the texture; `size` in texels; `linear`: lanes that interpolate.
+// A coordinate as the picture repeats: in [0, 1].
 template <class T>
-HWY_INLINE AxisTaps<T> MakeTaps(Wrap wrap, T position, IntOf<T> size, MaskOf<T> linear) {
+HWY_INLINE T Wrapped(Wrap wrap, T position) {
   position = Select(IsFinite(position), position, T(0.0f));
   switch (wrap) {
-    case Wrap::Repeat: position = position - Floor(position); break;
+    case Wrap::Repeat: return position - Floor(position);
     case Wrap::MirroredRepeat: {
       const T folded = position - T(2.0f) * Floor(position * T(0.5f));
-      position = Select(folded > T(1.0f), T(2.0f) - folded, folded);
-      break;
+      return Select(folded > T(1.0f), T(2.0f) - folded, folded);
     }
-    case Wrap::ClampToEdge: position = Clamp(position, T(0.0f), T(1.0f)); break;
+    case Wrap::ClampToEdge: break;
   }
-  const T texel = position * FromInt<T>(size) - Select(linear, T(0.5f), T(0.0f));
+  return Clamp(position, T(0.0f), T(1.0f));
+}
+
+// `position` in units of the texture; `size` in texels; `linear`: lanes that interpolate.
+template <class T>
+HWY_INLINE AxisTaps<T> MakeTaps(Wrap wrap, T position, IntOf<T> size, MaskOf<T> linear) {
+  const T texel = Wrapped(wrap, position) * FromInt<T>(size) - Select(linear, T(0.5f), T(0.0f));
   const T whole = Floor(texel);
   AxisTaps<T> taps{};
   taps.fraction = Select(linear, texel - whole, T(0.0f));
@@ -133,9 +138,11 @@ HWY_INLINE void MakeBilinearTap(const Sampler& sampler, Vec2<T> uv, const LevelP
 // singular values. (GPUs approximate them by the lengths of the two columns, which blurs skewed footprints.)
 template <class T>
 struct Footprint {
-  T lod;          // log2 of the width that one tap has to cover
+  T width;        // that one tap has to cover, texels of level 0
+  T lod;          // log2 of it
   T taps;         // how many taps go along the major axis, 1 to max_anisotropy
   Vec2<T> major;  // the major axis in uv, whole length
+  T length;       // of it, texels of level 0
 };
 
 template <class T>
@@ -163,7 +170,9 @@ HWY_INLINE Footprint<T> MakeFootprint(const TextureSlot& slot, Vec2<T> duv_dx, V
   const T needed = Max(-Floor(-ratio), T(1.0f));
   f.taps = Min(needed, T(several ? slot.max_anisotropy : 1.0f));
   f.taps = Select(major > T(1.0f), f.taps, T(1.0f));  // magnified: one tap sees it all
-  f.lod = Log2(Max(major / f.taps, Max(minor, T(1e-15f))));
+  f.width = Max(major / f.taps, Max(minor, T(1e-15f)));
+  f.lod = Log2(f.width);
+  f.length = major;
   // The eigenvector of the larger singular value: of the two ways to write it, the one that does not cancel.
   const Vec2<T> p{major_squared - c, b}, q{b, major_squared - a};
   const auto use_p = a >= c;
@@ -184,6 +193,8 @@ struct TextureTaps {
   // Those along the major axis, of the finer level; where two levels are read, each is followed by that of the coarser.
   bool two_levels;
   BilinearTap<T> taps[2 * kMax];
+  Vec2<T> uv;  // their middle
+  T reach;     // how far from it they read, at most, texels of level 0
 };
 
 // Whether samples of both slots at the same texture coordinates read the same places.
@@ -212,7 +223,9 @@ HWY_INLINE void MakeTextureTaps(const TextureSlot& slot, Vec2<T> uv_in, Vec2<T> 
   const TextureData& data = *slot.data;
   const MaskOf<T> yes(true), no(false);
   const T all(kWeightSum<T>);
+  out.uv = uv;
   const auto read_level_0 = [&](MaskOf<T> linear) HWY_ATTR {
+    out.reach = T(1.5f);  // a tap's texels lie within one texel and a half
     out.count = 1;
     out.of_lane = IntOf<T>(1);
     out.two_levels = false;
@@ -229,6 +242,8 @@ HWY_INLINE void MakeTextureTaps(const TextureSlot& slot, Vec2<T> uv_in, Vec2<T> 
   const MaskOf<T> linear = (magnified & (sampler.magnification == Filter::Linear ? yes : no)) |
                            (minified & (sampler.minification == Filter::Linear ? yes : no));
   if (sampler.mip == MipFilter::None) return read_level_0(linear);
+  // The coarser level's texels are up to twice as wide as a tap.
+  out.reach = footprint.length * T(0.5f) + Max(footprint.width, T(1.0f)) * T(3.0f);
   const bool nearest_level = sampler.mip == MipFilter::Nearest;
   const T base = Floor(nearest_level ? lod + T(0.5f) : lod);
   const T blend = nearest_level ? T(0.0f) : lod - base;  // from the finer level to the coarser
@@ -257,6 +272,20 @@ HWY_INLINE void MakeTextureTaps(const TextureSlot& slot, Vec2<T> uv_in, Vec2<T> 
   }
   out.count = levels * taps;
   out.of_lane = TruncateToInt(footprint.taps) * IntOf<T>(levels);
+}
+
+// Whether what would be read at `taps` is black, for each lane.
+template <class T>
+HWY_INLINE bool IsDark(const TextureSlot& slot, const TextureTaps<T>& taps) {
+  const DarkCells& dark = slot.data->dark;
+  if (dark.width == 0) return false;
+  const auto cell = [](Wrap wrap, T position, int cells) HWY_ATTR {
+    return Min(TruncateToInt(Wrapped(wrap, position) * T(static_cast<float>(cells))), IntOf<T>(cells - 1));
+  };
+  const IntOf<T> x = cell(slot.sampler.wrap_u, taps.uv.x, dark.width),
+                 y = cell(slot.sampler.wrap_v, taps.uv.y, dark.height);
+  const IntOf<T> lit = FetchInt(dark.lit.data(), y * IntOf<T>(dark.width) + x);
+  return All((lit == IntOf<T>(0)) & (taps.reach <= T(dark.reach)));
 }
 
 // Asks for the memory of texels that will be read soon, for one lane in `kStep`. (Inlined always: GCC drops calls of
@@ -288,7 +317,8 @@ struct ScalarPairs {
     return from == TextureData::kNoByte ? 0 : p[from];
   }
   HWY_INLINE std::int32_t Number(int i) const {
-    return static_cast<std::int16_t>(static_cast<std::uint16_t>(Byte(2 * i) | Byte(2 * i + 1) << 8));
+    const auto kept = static_cast<std::uint16_t>(Byte(2 * i) | Byte(2 * i + 1) << 8);
+    return static_cast<std::int16_t>(data.sparse ? kept ^ 0x8000 : kept);
   }
   HWY_INLINE std::int32_t Left(int channel) const { return Number(2 * channel); }
   HWY_INLINE std::int32_t Right(int channel) const { return Number(2 * channel + 1); }
@@ -324,7 +354,7 @@ inline constexpr NumberOfBlocks kNumberOfBlocks;
 
 // In lanes a pair of texels is a block of 16 bytes, R, G, B and A side by side; a vector holds those of every fourth
 // lane, and one instruction serves them all. Two blocks a vector: four are no faster where 512 bits are done in halves.
-template <int kCount, class T>
+template <int kCount, bool kSparse, class T>
 HWY_INLINE void SumTexelsInLanes(const TextureData* const* textures, const TextureTaps<T>& taps, TexelSums<T>* sums) {
   using Tag = hn::CappedTag<std::int32_t, 8>;
   const Tag d32;
@@ -358,7 +388,8 @@ HWY_INLINE void SumTexelsInLanes(const TextureData* const* textures, const Textu
           const auto pair_bytes = hn::LoadDup128(d8, textures[k]->pair_bytes);
           const auto pairs = [&](const IndexList<T>& byte) HWY_ATTR {
             const auto texels = EveryFourthRow<1>(d8, textures[k]->bytes.data(), byte.of_lane + first + j);
-            return hn::BitCast(d16, hn::TableLookupBytesOr0(texels, pair_bytes));
+            const auto numbers = hn::BitCast(d16, hn::TableLookupBytesOr0(texels, pair_bytes));
+            return kSparse ? hn::Xor(numbers, hn::Set(d16, std::int16_t{-32768})) : numbers;
           };
           sum[k] = hn::ReorderWidenMulAccumulate(d32, pairs(at[i][k][0]), top, sum[k], more[k]);
           sum[k] = hn::ReorderWidenMulAccumulate(d32, pairs(at[i][k][1]), bottom, sum[k], more[k]);
@@ -372,11 +403,15 @@ HWY_INLINE void SumTexelsInLanes(const TextureData* const* textures, const Textu
 }
 #endif
 
-// Sums the texels at `taps` of kCount textures that all have those taps.
+// Sums the texels at `taps` of kCount textures that all have those taps. A sparse one is summed alone.
 template <int kCount, class T>
 HWY_INLINE void SumTexels(const TextureData* const* textures, const TextureTaps<T>& taps, TexelSums<T>* sums) {
   if constexpr (kInLanes<T>) {
-    SumTexelsInLanes<kCount>(textures, taps, sums);
+    if (kCount == 1 && textures[0]->sparse) {
+      SumTexelsInLanes<1, true>(textures, taps, sums);
+    } else {
+      SumTexelsInLanes<kCount, false>(textures, taps, sums);
+    }
   } else {
     for (int k = 0; k < kCount; ++k) {
       auto& of_channel = sums[k].of_channel;
@@ -410,7 +445,7 @@ HWY_INLINE void SumTexels(int count, const TextureData* const* textures, const T
 // What a texture shows where `sums` were made. Of `kChannels`, a ChannelMask; the others are zero.
 template <int kChannels, class T>
 HWY_INLINE Vec4<T> ChannelsOf(const TextureData& data, const TexelSums<T>& sums) {
-  // From sums of numbers times weights to [0, 1]. Wide numbers are kept less 32768.
+  // From sums of numbers times weights to [0, 1]. Wide numbers are weighed less 32768.
   const T scale((data.wide ? 1.0f / 65535.0f : 1.0f / 255.0f) / kWeightSum<T>);
   Vec4<T> c{};
   if constexpr (kWholeWeights<T>) {

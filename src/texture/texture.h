@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "base/pages.h"
 #include "facet/image.h"
@@ -22,12 +23,23 @@ enum class TextureRole : std::uint8_t {
 // Which of R, G, B and A: one bit each.
 enum ChannelMask : int { kR = 1, kG = 2, kB = 4, kA = 8, kRgb = 7, kRgba = 15 };
 
+// Where in a picture there is nothing but black, also around: of most textures of emission it is nearly everywhere, and
+// they need not be read there. Cells are the texels of the first level that is at most kMaxSide wide and high.
+struct DarkCells {
+  static constexpr int kMaxSide = 64;
+  int width = 0, height = 0;      // cells; 0: nothing is known
+  float reach = 0.0f;             // texels of level 0: what is nearer than this to a dark cell is black
+  std::vector<std::int32_t> lit;  // row by row: whether a cell or one of its eight neighbours, as the picture repeats,
+                                  // shows something; 0: dark
+};
+
 // One image with its mip levels, no more of its channels than are read: texel (x, y) of level l is number
 // level_offset[l] + y * level_pitch[l] + x, of TexelBytes() bytes. A row ends with its first texel once more, so that
 // the two texels of a row that bilinear filtering needs always are neighbours, and one load gets both. (Squares of 4 x 4
 // texels, with four loads a footprint, are slower. The extra texel also keeps rows from lying powers of two apart.)
 struct TextureData {
-  bool wide = false;  // a number takes 16 bits, and is kept as signed: less 32768; else 8
+  bool wide = false;    // a number takes 16 bits, and is kept as signed: less 32768; else 8
+  bool sparse = false;  // ... but as it is, so that black is 0 and needs no memory
   int stored = 0;     // numbers of a texel
   // Which number of a texel each of R, G, B and A is; those of a grey picture share one. -1: it is not kept. Alpha
   // that is not kept is 1.
@@ -41,6 +53,7 @@ struct TextureData {
   // so on; kNoByte: 0. As byte shuffles of x86 and Arm want it.
   std::uint8_t pair_bytes[16] = {};
   PageVector<std::uint8_t> bytes;  // little-endian numbers, and kTexelSlack more
+  DarkCells dark;
 
   static constexpr std::uint8_t kNoByte = 0x80;
   static constexpr std::size_t kTexelSlack = 16;  // that one load may read beyond the last texel
@@ -58,11 +71,11 @@ std::size_t TexelCount(int width, int height, bool mips);
 
 // Builds a texture from a decoded picture. Each level halves the one above, rounding down; a texel is the mean, in
 // linear light, of the area it covers, also where a size is odd. `mips`: false keeps level 0 alone. `channels`: which
-// will be read.
+// will be read. `emission`: it is read for emission alone, hence likely to be black nearly everywhere.
 // Throws Error: OutOfMemory for pictures beyond 32768 texels a side or 2^27 texels, InvalidInput for pictures without
 // pixels, of other than 1 to 4 channels, or whose bytes do not fit their size.
 TextureData BuildTexture(const Image& image, TextureRole role, bool mips, TexelBits bits = TexelBits::Mixed,
-                         int channels = kRgba);
+                         int channels = kRgba, bool emission = false);
 
 // A use of a texture by a material.
 struct TextureSlot {

@@ -2,6 +2,7 @@
 #define HWY_TARGET_INCLUDE "texture/texture_kernels.cc"
 #include "hwy/foreach_target.h"
 
+#include <algorithm>
 #include <cstring>
 
 #include "facet/shader/dispatch.h"
@@ -32,14 +33,17 @@ HWY_INLINE void StoreRowOf(const StoreRowTask& task) {
   constexpr std::size_t kTexel = kStored * sizeof(Number);
   const hn::Rebind<Number, IntTag> d;
   const Float scale(kWide ? 65535.0f : 255.0f), half(0.5f);
-  const Int middle(kWide ? 32768 : 0);
+  const Int sign(kWide && !task.sparse ? 0x8000 : 0);
   const std::size_t lanes = LaneCount(), width = std::size_t(task.width);
   for (std::size_t x = 0; x < width; x += lanes) {
     hn::Vec<decltype(d)> numbers[kStored];
+    Int any(0);
     for (int k = 0; k < kStored; ++k) {
       const Int code = TruncateToInt(LoadFloat(task.planes[k] + x) * scale + half);
-      numbers[k] = hn::DemoteTo(d, (code - middle).raw);
+      numbers[k] = hn::DemoteTo(d, (code ^ sign).raw);
+      any = any | code;
     }
+    if (task.leave_black && All(any == Int(0))) continue;
     std::uint8_t* out = task.bytes + x * kTexel;
     if (x + lanes <= width) {  // a row begins where a texel does, so that wide numbers are aligned
       StoreTexels<kStored>(d, numbers, reinterpret_cast<Number*>(out));
@@ -49,7 +53,9 @@ HWY_INLINE void StoreRowOf(const StoreRowTask& task) {
       std::memcpy(out, texels, (width - x) * kTexel);
     }
   }
-  std::memcpy(task.bytes + width * kTexel, task.bytes, kTexel);
+  const std::uint8_t* const first = task.bytes;
+  if (task.leave_black && std::all_of(first, first + kTexel, [](std::uint8_t byte) { return byte == 0; })) return;
+  std::memcpy(task.bytes + width * kTexel, first, kTexel);
 }
 
 template <class Number>
@@ -63,7 +69,7 @@ HWY_INLINE void StoreRowOf(const StoreRowTask& task) {
 }
 
 void StoreRow(const StoreRowTask& task) {
-  task.wide ? StoreRowOf<std::int16_t>(task) : StoreRowOf<std::uint8_t>(task);
+  task.wide ? StoreRowOf<std::uint16_t>(task) : StoreRowOf<std::uint8_t>(task);
 }
 
 // `kTaps`: texels of a row that lie under one of the next.

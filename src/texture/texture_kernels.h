@@ -14,7 +14,8 @@ struct StoreRowTask {
   const float* planes[4];  // of each number of a texel
   int stored;              // how many
   std::int32_t width;
-  bool wide;
+  bool wide, sparse;    // as TextureData has them
+  bool leave_black;     // black is not written, where several texels are: it is there
   std::uint8_t* bytes;  // of the row's first texel
 };
 void StoreRow(const StoreRowTask& task);

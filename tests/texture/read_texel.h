@@ -14,7 +14,7 @@ inline std::array<double, 4> ReadTexel(const TextureData& t, int level, int x, i
   for (std::size_t k = 0; k < 4; ++k) {
     if (t.place_of[k] < 0) continue;
     const std::uint8_t* p = &t.bytes.at(first + std::size_t(t.place_of[k]) * size);
-    c[k] = t.wide ? (((p[0] | p[1] << 8) + 32768) & 0xFFFF) / 65535.0 : p[0] / 255.0;
+    c[k] = t.wide ? (((p[0] | p[1] << 8) + (t.sparse ? 0 : 32768)) & 0xFFFF) / 65535.0 : p[0] / 255.0;
   }
   return c;
 }
