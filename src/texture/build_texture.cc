@@ -67,7 +67,8 @@ TextureBuilder::TextureBuilder(const Image& form, int height, TextureRole role, 
     const int codes = type_ == ChannelType::U8 ? 256 : 65536;
     for (int i = 0; i < codes; ++i) linear_.push_back(static_cast<float>(i) / static_cast<float>(codes - 1));
     color_ = linear_;
-    if (role == TextureRole::Color && form.encoding == Encoding::Srgb) {
+    gamma_ = role == TextureRole::Color && form.encoding == Encoding::Srgb;
+    if (gamma_) {
       std::transform(linear_.begin(), linear_.end(), color_.begin(), SrgbToLinear);
     }
   }
@@ -122,39 +123,30 @@ void TextureBuilder::Add(const Image& rows) {
   }
 }
 
-// The numbers of a picture's row that are kept, in linear light, channel by channel. kStored of them a texel: compiled
-// apart, as most of the time would go into counting them.
-template <int kStored, class Number>
-void TextureBuilder::Expand(const Number* row) {
-  const Number* from[kStored];
-  const float* codes[kStored];
-  float* plane[kStored];
-  for (int k = 0; k < kStored; ++k) {
-    const bool alpha = channels_ % 2 == 0 && channel_of_[k] == channels_ - 1;
-    from[k] = row + channel_of_[k];
-    codes[k] = (alpha ? linear_ : color_).data();
-    plane[k] = Plane(0, next_row_, k);
+// The numbers of a picture's row that are kept, in linear light, channel by channel.
+void TextureBuilder::Expand(const std::uint8_t* row) {
+  ExpandRowTask task{row, channels_, texture_.stored, {}, {}, {}, width_};
+  for (int k = 0; k < texture_.stored; ++k) {
+    task.channel[k] = channel_of_[k];
+    task.light[k] = IsAlpha(k) || !gamma_ ? nullptr : color_.data();
+    task.planes[k] = Plane(0, next_row_, k);
   }
-  const int width = width_, channels = channels_;
-  for (int x = 0, at = 0; x < width; ++x, at += channels) {
-    for (int k = 0; k < kStored; ++k) {
-      const Number code = from[k][at];
-      if constexpr (std::is_same_v<Number, float>) {
-        plane[k][x] = code > 0.0f ? std::min(code, 1.0f) : 0.0f;
-      } else {
-        plane[k][x] = codes[k][code];
-      }
-    }
-  }
+  ExpandRow(task);
 }
 
 template <class Number>
 void TextureBuilder::Expand(const Number* row) {
-  switch (texture_.stored) {
-    case 1: return Expand<1>(row);
-    case 2: return Expand<2>(row);
-    case 3: return Expand<3>(row);
-    default: return Expand<4>(row);
+  for (int k = 0; k < texture_.stored; ++k) {
+    const float* const light = (IsAlpha(k) ? linear_ : color_).data();
+    float* const plane = Plane(0, next_row_, k);
+    const Number* code = row + channel_of_[k];
+    for (int x = 0; x < width_; ++x, code += channels_) {
+      if constexpr (std::is_same_v<Number, float>) {
+        plane[x] = *code > 0.0f ? std::min(*code, 1.0f) : 0.0f;
+      } else {
+        plane[x] = light[*code];
+      }
+    }
   }
 }
 

@@ -13,6 +13,48 @@ HWY_BEFORE_NAMESPACE();
 namespace facet {
 namespace HWY_NAMESPACE {
 
+// The codes of some pixels, channel by channel.
+template <int kChannels, class D>
+HWY_INLINE void LoadPixels(D d, const std::uint8_t* p, hn::Vec<D>* v) {
+  if constexpr (kChannels == 1) {
+    v[0] = hn::LoadU(d, p);
+  } else if constexpr (kChannels == 2) {
+    hn::LoadInterleaved2(d, p, v[0], v[1]);
+  } else if constexpr (kChannels == 3) {
+    hn::LoadInterleaved3(d, p, v[0], v[1], v[2]);
+  } else {
+    hn::LoadInterleaved4(d, p, v[0], v[1], v[2], v[3]);
+  }
+}
+
+template <int kChannels>
+HWY_INLINE void ExpandRowOf(const ExpandRowTask& task) {
+  const hn::Rebind<std::uint8_t, IntTag> d;
+  const Float most(255.0f);
+  const std::size_t lanes = LaneCount(), width = std::size_t(task.width);
+  for (std::size_t x = 0; x < width; x += lanes) {
+    const std::uint8_t* p = task.row + x * kChannels;
+    std::uint8_t last[4 * kMaxLanes] = {};
+    if (x + lanes > width) std::copy(p, task.row + width * kChannels, last), p = last;
+    hn::Vec<decltype(d)> pixels[kChannels];
+    LoadPixels<kChannels>(d, p, pixels);
+    for (int k = 0; k < task.kept; ++k) {
+      const Int code = hn::PromoteTo(IntTag(), pixels[task.channel[k]]);
+      const float* light = task.light[k];
+      Store(light == nullptr ? ToFloat(code) / most : Gather(light, code), task.planes[k] + x);
+    }
+  }
+}
+
+void ExpandRow(const ExpandRowTask& task) {
+  switch (task.channels) {
+    case 1: return ExpandRowOf<1>(task);
+    case 2: return ExpandRowOf<2>(task);
+    case 3: return ExpandRowOf<3>(task);
+    default: return ExpandRowOf<4>(task);
+  }
+}
+
 // Numbers of `D` side by side: as many as a texel has.
 template <int kStored, class D, class V>
 HWY_INLINE void StoreTexels(D d, const V* v, hn::TFromD<D>* out) {
@@ -35,6 +77,7 @@ HWY_INLINE void StoreRowOf(const StoreRowTask& task) {
   const Float scale(kWide ? 65535.0f : 255.0f), half(0.5f);
   const Int sign(kWide && !task.sparse ? 0x8000 : 0);
   const std::size_t lanes = LaneCount(), width = std::size_t(task.width);
+  Number first[kStored * kMaxLanes];
   for (std::size_t x = 0; x < width; x += lanes) {
     hn::Vec<decltype(d)> numbers[kStored];
     Int any(0);
@@ -43,6 +86,7 @@ HWY_INLINE void StoreRowOf(const StoreRowTask& task) {
       numbers[k] = hn::DemoteTo(d, (code ^ sign).raw);
       any = any | code;
     }
+    if (x == 0) StoreTexels<kStored>(d, numbers, first);
     if (task.leave_black && All(any == Int(0))) continue;
     std::uint8_t* out = task.bytes + x * kTexel;
     if (x + lanes <= width) {  // a row begins where a texel does, so that wide numbers are aligned
@@ -53,8 +97,7 @@ HWY_INLINE void StoreRowOf(const StoreRowTask& task) {
       std::memcpy(out, texels, (width - x) * kTexel);
     }
   }
-  const std::uint8_t* const first = task.bytes;
-  if (task.leave_black && std::all_of(first, first + kTexel, [](std::uint8_t byte) { return byte == 0; })) return;
+  if (task.leave_black && std::all_of(first, first + kStored, [](Number n) { return n == 0; })) return;
   std::memcpy(task.bytes + width * kTexel, first, kTexel);
 }
 
@@ -114,9 +157,11 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace facet {
 
+FACET_EXPORT(ExpandRow);
 FACET_EXPORT(StoreRow);
 FACET_EXPORT(HalveRow);
 
+void ExpandRow(const ExpandRowTask& task) { FACET_DISPATCH(ExpandRow)(task); }
 void StoreRow(const StoreRowTask& task) { FACET_DISPATCH(StoreRow)(task); }
 void HalveRow(const HalveRowTask& task) { FACET_DISPATCH(HalveRow)(task); }
 

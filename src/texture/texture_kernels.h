@@ -9,6 +9,18 @@ namespace facet {
 
 inline constexpr std::size_t kRowSlack = 64;
 
+// A picture's row of 8-bit codes, apart by channel and in linear light.
+struct ExpandRowTask {
+  const std::uint8_t* row;
+  int channels;         // of the picture
+  int kept;             // how many of them
+  int channel[4];       // which
+  const float* light[4];  // of each of the 256 codes; null: code / 255
+  float* planes[4];
+  std::int32_t width;
+};
+void ExpandRow(const ExpandRowTask& task);
+
 // A row of texels in [0, 1], rounded to 8 or 16 bits, and its first texel once more at the end (see TextureData).
 struct StoreRowTask {
   const float* planes[4];  // of each number of a texel
