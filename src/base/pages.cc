@@ -22,8 +22,7 @@ std::size_t WholePages(std::size_t bytes) { return (bytes + kHugePage - 1) / kHu
 // Begins where a huge page does.
 void* MapPages(std::size_t bytes) {
   const std::size_t whole = WholePages(bytes);
-  void* const mapped =
-      ::mmap(nullptr, whole + kHugePage, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  void* const mapped = ::mmap(nullptr, whole + kHugePage, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   if (mapped == MAP_FAILED) throw std::bad_alloc();
   auto* const first = static_cast<std::byte*>(mapped);
   const std::size_t before = -reinterpret_cast<std::uintptr_t>(mapped) % kHugePage;

@@ -46,10 +46,8 @@ void OnMessage(j_common_ptr codec, int level) {
     case JWRN_HIT_MARKER:
     case JWRN_HUFF_BAD_CODE:
     case JWRN_MUST_RESYNC:
-    case JWRN_NOT_SEQUENTIAL:
-      OnError(codec);
-    default:
-      break;
+    case JWRN_NOT_SEQUENTIAL: OnError(codec);
+    default: break;
   }
 }
 
@@ -80,19 +78,12 @@ bool Start(jpeg_decompress_struct* decoder, ErrorState* errors, const unsigned c
   jpeg_mem_src(decoder, data, size);
   jpeg_read_header(decoder, TRUE);
   switch (decoder->jpeg_color_space) {
-    case JCS_GRAYSCALE:
-      decoder->out_color_space = JCS_GRAYSCALE;
-      break;
+    case JCS_GRAYSCALE: decoder->out_color_space = JCS_GRAYSCALE; break;
     case JCS_RGB:
-    case JCS_YCbCr:
-      decoder->out_color_space = JCS_RGB;
-      break;
+    case JCS_YCbCr: decoder->out_color_space = JCS_RGB; break;
     case JCS_CMYK:
-    case JCS_YCCK:
-      decoder->out_color_space = JCS_CMYK;
-      break;
-    default:
-      ERREXIT(decoder, JERR_CONVERSION_NOTIMPL);
+    case JCS_YCCK: decoder->out_color_space = JCS_CMYK; break;
+    default: ERREXIT(decoder, JERR_CONVERSION_NOTIMPL);
   }
   decoder->dct_method = JDCT_ISLOW;
   decoder->do_fancy_upsampling = TRUE;
@@ -112,8 +103,8 @@ bool ReadRows(jpeg_decompress_struct* decoder, ErrorState* errors, JSAMPROW* row
   return true;
 }
 
-// The coefficients of a large progressive picture, which libjpeg would take from the heap, in small pages, and zero once
-// more: a third of the time that it takes to decode it.
+// The coefficients of a large progressive picture, which libjpeg would take from the heap, in small pages, and zero
+// once more: a third of the time that it takes to decode it.
 struct CoefficientArray {
   PageVector<JCOEF> numbers;  // JBLOCKs; as large as they are, their memory is zero
   std::vector<JBLOCKROW> rows;

@@ -164,8 +164,7 @@ class MaterialView {
       metallic = metallic * texel.z;
     }
     if (m_.Has(kOcclusionTexture)) {
-      occlusion = occlusion + T(m_.occlusion_strength) *
-                                  (textures.template Read<kR>(m_.occlusion_texture).x - T(1.0f));
+      occlusion = occlusion + T(m_.occlusion_strength) * (textures.template Read<kR>(m_.occlusion_texture).x - T(1.0f));
     }
     const Vec3<T> emissive = m_.Has(kEmission) ? Emissive(textures) : Vec3<T>{T(0.0f), T(0.0f), T(0.0f)};
     return {Xyz(base), base.w, metallic, perceptual_roughness, Normal(s, textures), occlusion, emissive};

@@ -22,8 +22,8 @@ void LayOut(TextureData& texture, int picture_width, int picture_height, bool mi
   if (picture_width > kMaxSize || picture_height > kMaxSize ||
       std::size_t(picture_width) * std::size_t(picture_height) > (std::size_t{1} << 27)) {
     throw Error(ErrorCode::OutOfMemory,
-                "a texture of " + std::to_string(picture_width) + " x " + std::to_string(picture_height) + " texels", {},
-                "the limit is 32768 a side and 2^27 texels in all");
+                "a texture of " + std::to_string(picture_width) + " x " + std::to_string(picture_height) + " texels",
+                {}, "the limit is 32768 a side and 2^27 texels in all");
   }
   int width = picture_width, height = picture_height;
   std::size_t texels = 0;
@@ -48,13 +48,13 @@ void LayOut(TextureData& texture, int picture_width, int picture_height, bool mi
 
 }  // namespace
 
-TextureBuilder::TextureBuilder(const Image& form, int height, TextureRole role, bool mips, TexelBits bits,
-                               int channels, bool emission)
+TextureBuilder::TextureBuilder(const Image& form, int height, TextureRole role, bool mips, TexelBits bits, int channels,
+                               bool emission)
     : width_(form.width), channels_(form.channels), type_(form.type) {
   const bool sized = width_ >= 1 && height >= 1 && form.height >= 1 && channels_ >= 1 && channels_ <= 4;
   if (!sized || form.bytes.size() / (std::size_t(channels_) * SizeOf(type_)) != form.PixelCount()) Refuse(form, height);
-  texture_.wide = bits == TexelBits::Mixed ? role == TextureRole::Color || type_ != ChannelType::U8
-                                           : bits == TexelBits::Sixteen;
+  texture_.wide =
+      bits == TexelBits::Mixed ? role == TextureRole::Color || type_ != ChannelType::U8 : bits == TexelBits::Sixteen;
   PlaceChannels(channels);
   LayOut(texture_, width_, height, mips);
   if (emission) {
@@ -153,7 +153,12 @@ void TextureBuilder::Expand(const Number* row) {
 // Stores a row whose planes are filled, and makes the row of the next level that it completes: of two rows, three where
 // a height is odd.
 void TextureBuilder::FinishRow(int level, int y) {
-  StoreRowTask store{{}, texture_.stored, texture_.level_width[level], texture_.wide, texture_.sparse, leave_black_,
+  StoreRowTask store{{},
+                     texture_.stored,
+                     texture_.level_width[level],
+                     texture_.wide,
+                     texture_.sparse,
+                     leave_black_,
                      texture_.bytes.data() + texture_.ByteOf(level, y)};
   for (int k = 0; k < texture_.stored; ++k) store.planes[k] = Plane(level, y, k);
   StoreRow(store);

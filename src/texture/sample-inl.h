@@ -188,8 +188,8 @@ HWY_INLINE Footprint<T> MakeFootprint(const TextureSlot& slot, Vec2<T> duv_dx, V
 template <class T>
 struct TextureTaps {
   static constexpr int kMax = 16;  // along the major axis
-  int count;             // of `taps`, of the lane that has most
-  IndexList<T> of_lane;  // how many of them each lane has
+  int count;                       // of `taps`, of the lane that has most
+  IndexList<T> of_lane;            // how many of them each lane has
   // Those along the major axis, of the finer level; where two levels are read, each is followed by that of the coarser.
   bool two_levels;
   BilinearTap<T> taps[2 * kMax];
@@ -202,9 +202,9 @@ HWY_INLINE bool HaveSameTaps(const TextureSlot& a, const TextureSlot& b) {
   const TextureData &p = *a.data, &q = *b.data;
   const Sampler &f = a.sampler, &g = b.sampler;
   bool same = a.uv_slot == b.uv_slot && a.max_anisotropy == b.max_anisotropy && p.levels == q.levels &&
-              p.level_width[0] == q.level_width[0] && p.level_height[0] == q.level_height[0] &&
-              f.wrap_u == g.wrap_u && f.wrap_v == g.wrap_v && f.magnification == g.magnification &&
-              f.minification == g.minification && f.mip == g.mip;
+              p.level_width[0] == q.level_width[0] && p.level_height[0] == q.level_height[0] && f.wrap_u == g.wrap_u &&
+              f.wrap_v == g.wrap_v && f.magnification == g.magnification && f.minification == g.minification &&
+              f.mip == g.mip;
   for (int i = 0; i < 6; ++i) same = same && a.transform[i] == b.transform[i];
   return same;
 }

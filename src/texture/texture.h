@@ -35,12 +35,12 @@ struct DarkCells {
 
 // One image with its mip levels, no more of its channels than are read: texel (x, y) of level l is number
 // level_offset[l] + y * level_pitch[l] + x, of TexelBytes() bytes. A row ends with its first texel once more, so that
-// the two texels of a row that bilinear filtering needs always are neighbours, and one load gets both. (Squares of 4 x 4
-// texels, with four loads a footprint, are slower. The extra texel also keeps rows from lying powers of two apart.)
+// the two texels of a row that bilinear filtering needs always are neighbours, and one load gets both. (Squares of 4 x
+// 4 texels, with four loads a footprint, are slower. The extra texel also keeps rows from lying powers of two apart.)
 struct TextureData {
   bool wide = false;    // a number takes 16 bits, and is kept as signed: less 32768; else 8
   bool sparse = false;  // ... but as it is, so that black is 0 and needs no memory
-  int stored = 0;     // numbers of a texel
+  int stored = 0;       // numbers of a texel
   // Which number of a texel each of R, G, B and A is; those of a grey picture share one. -1: it is not kept. Alpha
   // that is not kept is 1.
   int place_of[4] = {-1, -1, -1, -1};
@@ -81,7 +81,7 @@ TextureData BuildTexture(const Image& image, TextureRole role, bool mips, TexelB
 struct TextureSlot {
   const TextureData* data = nullptr;  // null: the texture is absent, factors alone count
   Sampler sampler;
-  int uv_slot = 0;                    // which of the interpolated UV sets
+  int uv_slot = 0;  // which of the interpolated UV sets
   // u' = transform[0] * u + transform[1] * v + transform[2], v' = transform[3] * u + ...
   float transform[6] = {1, 0, 0, 0, 1, 0};
   float max_anisotropy = 8.0f;

@@ -27,10 +27,15 @@ HWY_INLINE void LoadPixels(D d, const std::uint8_t* p, hn::Vec<D>* v) {
   }
 }
 
+// code / 255 as division rounds it, for all codes: (257 + 1 / 255) / 65536, of which the first product is exact.
+HWY_INLINE Float DividedBy255(Int code) {
+  const Float c = ToFloat(code);
+  return c * Float(257.0f / 65536.0f) + c * Float(1.0f / (255.0f * 65536.0f));
+}
+
 template <int kChannels>
 HWY_INLINE void ExpandRowOf(const ExpandRowTask& task) {
   const hn::Rebind<std::uint8_t, IntTag> d;
-  const Float most(255.0f);
   const std::size_t lanes = LaneCount(), width = std::size_t(task.width);
   for (std::size_t x = 0; x < width; x += lanes) {
     const std::uint8_t* p = task.row + x * kChannels;
@@ -41,7 +46,10 @@ HWY_INLINE void ExpandRowOf(const ExpandRowTask& task) {
     for (int k = 0; k < task.kept; ++k) {
       const Int code = hn::PromoteTo(IntTag(), pixels[task.channel[k]]);
       const float* light = task.light[k];
-      Store(light == nullptr ? ToFloat(code) / most : Gather(light, code), task.planes[k] + x);
+      Store(light == nullptr      ? DividedBy255(code)
+            : All(code == Int(0)) ? Float(light[0])  // of emission, nearly everywhere: gathering takes long
+                                  : Gather(light, code),
+            task.planes[k] + x);
     }
   }
 }

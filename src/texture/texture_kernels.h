@@ -12,9 +12,9 @@ inline constexpr std::size_t kRowSlack = 64;
 // A picture's row of 8-bit codes, apart by channel and in linear light.
 struct ExpandRowTask {
   const std::uint8_t* row;
-  int channels;         // of the picture
-  int kept;             // how many of them
-  int channel[4];       // which
+  int channels;           // of the picture
+  int kept;               // how many of them
+  int channel[4];         // which
   const float* light[4];  // of each of the 256 codes; null: code / 255
   float* planes[4];
   std::int32_t width;

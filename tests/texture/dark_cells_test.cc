@@ -19,7 +19,8 @@ Image BlackBut(int width, int height, const std::vector<Place>& lit, int channel
   Image image{width, height, channels, ChannelType::U8, Encoding::Srgb, {}};
   image.bytes.resize(image.PixelCount() * std::size_t(channels), std::byte(0));
   for (const Place& p : lit) {
-    image.bytes[(std::size_t(p.y) * std::size_t(width) + std::size_t(p.x)) * std::size_t(channels) + 1] = std::byte(255);
+    image.bytes[(std::size_t(p.y) * std::size_t(width) + std::size_t(p.x)) * std::size_t(channels) + 1] =
+        std::byte(255);
   }
   return image;
 }
