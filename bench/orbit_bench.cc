@@ -1,8 +1,8 @@
 // Steady frames, as an interactive viewer or a turntable draws them: the file is loaded, the camera goes round.
 //   orbit_bench MODEL [HDRI|none|studio [WIDTH HEIGHT [SAMPLES [THREADS [FRAMES [RADIUS [STEP]]]]]]]
 // STEP: degrees from one frame to the next [360 / FRAMES]; 0 draws the same frame again and again.
-// It prints one line of JSON: medians over the frames, in milliseconds, without the first frame. "frame" is linear
-// light, "develop" its way to 8 bits; the environment is the background where it is a picture.
+// It prints one line of JSON: medians over the frames, in milliseconds, without the first frame. Frames are pictures of
+// 8 bits; the environment is the background where it is a picture.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -53,8 +53,8 @@ int main(int argc, char** argv) try {
   const double step = argc > 9 ? std::atof(argv[9]) * std::numbers::pi / 180.0 : 2.0 * std::numbers::pi / frames;
 
   facet::Renderer renderer(loaded.scene);
-  facet::Film film;
-  std::vector<double> frame_ms, develop_ms, geometry_ms, raster_ms, fragments, covered;
+  facet::Image picture;
+  std::vector<double> frame_ms, geometry_ms, raster_ms, fragments, covered;
   double triangles = 0.0;
   for (int i = -1; i < frames; ++i) {
     facet::OrbitCamera camera;
@@ -63,13 +63,10 @@ int main(int argc, char** argv) try {
     settings.camera = camera;
     facet::RenderStats stats;
     const double start = Now();
-    renderer.Render(settings, film, &stats);
+    renderer.RenderPicture(settings, {}, picture, &stats);
     const double rendered = Now();
-    const facet::Image image = facet::Develop(film, {});
-    const double developed = Now();
     if (i < 0) continue;
     frame_ms.push_back(rendered - start);
-    develop_ms.push_back(developed - rendered);
     geometry_ms.push_back(1e3 * (stats.geometry_seconds + stats.pose_seconds));
     raster_ms.push_back(1e3 * stats.raster_seconds);
     fragments.push_back(double(stats.fragments_shaded + stats.fragments_blended));
@@ -77,11 +74,11 @@ int main(int argc, char** argv) try {
     triangles = double(stats.triangles_in);
   }
   std::printf(
-      "{\"frame_ms\": %.3f, \"develop_ms\": %.3f, \"geometry_ms\": %.3f, \"raster_ms\": %.3f, \"fragments\": %.0f, "
+      "{\"frame_ms\": %.3f, \"geometry_ms\": %.3f, \"raster_ms\": %.3f, \"fragments\": %.0f, "
       "\"covered_pixels\": %.0f, \"triangles\": %.0f, \"width\": %d, \"height\": %d, \"samples\": %d, \"threads\": "
       "%d}\n",
-      Median(frame_ms), Median(develop_ms), Median(geometry_ms), Median(raster_ms), Median(fragments), Median(covered),
-      triangles, settings.width, settings.height, settings.samples, settings.threads);
+      Median(frame_ms), Median(geometry_ms), Median(raster_ms), Median(fragments), Median(covered), triangles,
+      settings.width, settings.height, settings.samples, settings.threads);
   return 0;
 } catch (const std::exception& error) {
   std::fprintf(stderr, "orbit_bench: %s\n", error.what());

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <string>
 
-#include "base/float_environment.h"
 #include "base/check.h"
+#include "base/float_environment.h"
 #include "base/pages.h"
 #include "base/parallel.h"
 #include "facet/error.h"
@@ -32,42 +32,50 @@ float LinearBackground(float encoded) {
 
 }  // namespace
 
+DevelopTask MakeDevelopTask(const DisplaySettings& settings, ChannelType type) {
+  const FloatEnvironment pinned;
+  DevelopTask task;
+  task.type = type;
+  task.tone_map = settings.tone_map;
+  task.exposure = ExposureFactor(settings.exposure_ev);
+  if (settings.background_srgb) {
+    task.opaque = true;
+    for (int channel = 0; channel < 3; ++channel) {
+      task.background_linear[static_cast<std::size_t>(channel)] =
+          LinearBackground((*settings.background_srgb)[channel]);
+    }
+  }
+  if (type == ChannelType::U8) task.tables = &GetSrgbTables();
+  if (type == ChannelType::U16) task.thresholds16 = Srgb16Thresholds().data();
+  return task;
+}
+
+void SizeForTask(const DevelopTask& task, int width, int height, Image& image) {
+  image.width = width;
+  image.height = height;
+  image.channels = task.opaque ? 3 : 4;
+  image.type = task.type;
+  image.encoding = task.type == ChannelType::F32 ? Encoding::Linear : Encoding::Srgb;
+  const std::size_t bytes = image.PixelCount() * task.PixelBytes();
+  image.bytes.reserve(bytes);
+  PreferHugePages(image.bytes.data(), image.bytes.capacity());
+  image.bytes.resize(bytes);
+}
+
 Image Develop(const Film& film, const DisplaySettings& settings, ChannelType type) {
   const FloatEnvironment pinned;
   FACET_CHECK_OP(film.width, >=, 0);
   FACET_CHECK_OP(film.height, >=, 0);
+  const DevelopTask whole = MakeDevelopTask(settings, type);
   Image image;
-  image.width = film.width;
-  image.height = film.height;
-  image.channels = settings.background_srgb ? 3 : 4;
-  image.type = type;
-  image.encoding = type == ChannelType::F32 ? Encoding::Linear : Encoding::Srgb;
+  SizeForTask(whole, film.width, film.height, image);
   FACET_CHECK_OP(film.pixels.size(), ==, image.PixelCount());
-
-  DevelopTask whole;
-  whole.type = type;
-  whole.tone_map = settings.tone_map;
-  whole.exposure = ExposureFactor(settings.exposure_ev);
-  if (settings.background_srgb) {
-    whole.opaque = true;
-    for (int channel = 0; channel < 3; ++channel) {
-      whole.background_linear[static_cast<std::size_t>(channel)] =
-          LinearBackground((*settings.background_srgb)[channel]);
-    }
-  }
-  if (type == ChannelType::U8) whole.tables = &GetSrgbTables();
-  if (type == ChannelType::U16) whole.thresholds16 = Srgb16Thresholds().data();
-
-  const std::size_t pixel_size = static_cast<std::size_t>(image.channels) * SizeOf(type);
-  image.bytes.reserve(image.PixelCount() * pixel_size);
-  PreferHugePages(image.bytes.data(), image.bytes.capacity());
-  image.bytes.resize(image.PixelCount() * pixel_size);
   constexpr std::size_t kPixelsPerTask = 16384;
   ParallelFor(image.PixelCount(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
     DevelopTask task = whole;
     task.pixels = &film.pixels[begin].x;
     task.count = end - begin;
-    task.out = image.bytes.data() + begin * pixel_size;
+    task.out = image.bytes.data() + begin * whole.PixelBytes();
     DevelopPixels(task);
   });
   return image;

@@ -133,7 +133,7 @@ HWY_INLINE void DevelopLinear(const DevelopTask& task, const float* pixels, std:
 
 void DevelopPixels(const DevelopTask& task) {
   const std::size_t lanes = LaneCount();
-  const std::size_t pixel_size = SizeOf(task.type) * (task.opaque ? 3u : 4u);
+  const std::size_t pixel_size = task.PixelBytes();
   for (std::size_t i = 0; i < task.count; i += lanes) {
     const std::size_t count = std::min(lanes, task.count - i);
     const float* pixels = task.pixels + 4 * i;

@@ -20,8 +20,16 @@ struct DevelopTask {
   std::array<float, 3> background_linear{};  // for `opaque`
   const SrgbTables* tables = nullptr;
   const float* thresholds16 = nullptr;  // Srgb16Thresholds(), for U16
+
+  std::size_t PixelBytes() const { return SizeOf(type) * (opaque ? 3 : 4); }
 };
 
 void DevelopPixels(const DevelopTask& task);
+
+// A task without pixels. Throws Error(InvalidUsage) for settings that Develop() refuses.
+DevelopTask MakeDevelopTask(const DisplaySettings& settings, ChannelType type);
+
+// Makes `image` one of tasks' pixels, of this size; they are not set. Its memory is used again.
+void SizeForTask(const DevelopTask& task, int width, int height, Image& image);
 
 }  // namespace facet

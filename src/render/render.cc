@@ -12,6 +12,7 @@
 #include "facet/error.h"
 #include "facet/shader.h"
 #include "facet/shader/dispatch.h"
+#include "film/develop_pixels.h"
 #include "frame/constants.h"
 #include "light/environment_source.h"
 #include "light/studio.h"
@@ -124,23 +125,40 @@ std::shared_ptr<const EnvironmentMap> FromSource(const EnvironmentSource& source
   return map;
 }
 
+void PrepareFilm(int width, int rows, Film& film) {
+  film.width = width;
+  film.pixels.reserve(std::size_t(width) * std::size_t(rows));
+  PreferHugePages(film.pixels.data(), film.pixels.capacity() * sizeof(glm::vec4));
+}
+
 }  // namespace
+
+// Where a frame goes: to a film, whole or a band of rows after the other in the same memory, or to a picture.
+struct Renderer::FrameOutput {
+  Film* film = nullptr;
+  int max_rows = kMaxPictureSize;         // of a band
+  const BandReceiver* receive = nullptr;  // called for each band; may be null
+  Image* picture = nullptr;               // where there is no film
+  DevelopTask develop;
+
+  std::uint64_t PixelBytes() const { return film != nullptr ? sizeof(glm::vec4) : develop.PixelBytes(); }
+};
 
 // What frames share. Each part is made anew when the settings that it was made for are others.
 class Renderer::Frames {
  public:
   explicit Frames(const Scene& scene) : scene_(scene) {}
 
-  // A band of rows after the other in `film`; `receive`, which may be empty, is called for each.
-  void Render(const RenderSettings& settings, int max_rows, Film& film, const BandReceiver& receive,
-              RenderStats& stats) {
+  void Render(const RenderSettings& settings, const FrameOutput& output, RenderStats& stats) {
     Stopwatch total, stage;
     const TileGrid grid = MakeTileGrid(settings.width, settings.height, settings.tile_size);
-    const int band_tiles = max_rows >= settings.height ? grid.rows : std::max(max_rows / grid.tile_size, 1);
+    const int band_tiles =
+        output.max_rows >= settings.height ? grid.rows : std::max(output.max_rows / grid.tile_size, 1);
     const int band_rows = std::min(band_tiles * grid.tile_size, settings.height);
     MemoryBudget budget(settings.memory_limit);
-    budget.Add(std::uint64_t(settings.width) * std::uint64_t(band_rows) * sizeof(glm::vec4),
-               "a film of " + std::to_string(settings.width) + " x " + std::to_string(band_rows) + " pixels",
+    budget.Add(std::uint64_t(settings.width) * std::uint64_t(band_rows) * output.PixelBytes(),
+               (output.film != nullptr ? "a film of " : "a picture of ") + std::to_string(settings.width) + " x " +
+                   std::to_string(band_rows) + " pixels",
                "make the picture smaller");
     std::size_t geometry_bytes = 0;
     for (const Mesh& mesh : scene_.meshes) geometry_bytes += BytesOf(mesh.primitives);
@@ -167,21 +185,29 @@ class Renderer::Frames {
         MakeLightingData(lights, environment, settings.environment.rotation, settings.environment.intensity);
     stats.environment_seconds = stage.Lap();
 
-    film.width = settings.width;
-    film.pixels.reserve(std::size_t(settings.width) * std::size_t(band_rows));
-    PreferHugePages(film.pixels.data(), film.pixels.capacity() * sizeof(glm::vec4));
+    TileOutput tiles_to{nullptr, output.develop};
+    if (output.film != nullptr) {
+      PrepareFilm(settings.width, band_rows, *output.film);
+    } else {
+      SizeForTask(output.develop, settings.width, settings.height, *output.picture);
+      tiles_to.develop.out = output.picture->bytes.data();
+    }
     LightingData lit = lighting;
     if (!plan.environment_light) lit.environment = nullptr;  // seen behind the scene at most
     const TilePassInput input{view, plan, geometry_, grid, lit, lighting, settings};
     for (int row = 0; row < grid.rows; row += band_tiles) {
       const int end = std::min(row + band_tiles, grid.rows), first = row * grid.tile_size;
-      film.height = std::min(end * grid.tile_size, settings.height) - first;
       ListTiles(plan, row * grid.columns, end * grid.columns, geometry_);
       stats.geometry_seconds += stage.Lap();
-      film.pixels.resize(std::size_t(film.width) * std::size_t(film.height));
-      RunTiles(input, row, end, film, stats);
+      if (output.film != nullptr) {
+        Film& film = *output.film;
+        film.height = std::min(end * grid.tile_size, settings.height) - first;
+        film.pixels.resize(std::size_t(film.width) * std::size_t(film.height));
+        tiles_to.film = film.pixels.data();
+      }
+      RunTiles(input, row, end, tiles_to, stats);
       stats.raster_seconds += stage.Lap();
-      if (receive) receive(film, first), stage.Lap();
+      if (output.receive != nullptr) (*output.receive)(*output.film, first), stage.Lap();
     }
     stats.total_seconds = total.Lap();
     if (settings.progress) settings.progress(1.0);
@@ -241,17 +267,30 @@ Renderer::Renderer(const Scene& scene) : frames_(std::make_unique<Frames>(scene)
 Renderer::~Renderer() = default;
 
 void Renderer::Render(const RenderSettings& settings, Film& film, RenderStats* stats) {
-  Draw(settings, settings.height, film, {}, stats);
+  FrameOutput output;
+  output.film = &film;
+  Draw(settings, output, stats);
 }
 
 void Renderer::RenderBands(const RenderSettings& settings, int max_rows, const BandReceiver& receive,
                            RenderStats* stats) {
   Film band;
-  Draw(settings, max_rows, band, receive, stats);
+  FrameOutput output;
+  output.film = &band;
+  output.max_rows = max_rows;
+  if (receive) output.receive = &receive;
+  Draw(settings, output, stats);
 }
 
-void Renderer::Draw(const RenderSettings& settings, int max_rows, Film& film, const BandReceiver& receive,
-                    RenderStats* stats) {
+void Renderer::RenderPicture(const RenderSettings& settings, const DisplaySettings& display, Image& picture,
+                             RenderStats* stats, ChannelType type) {
+  FrameOutput output;
+  output.picture = &picture;
+  output.develop = MakeDevelopTask(display, type);
+  Draw(settings, output, stats);
+}
+
+void Renderer::Draw(const RenderSettings& settings, const FrameOutput& output, RenderStats* stats) {
   CheckSettings(settings);
   RenderStats unused;
   RenderStats& s = stats != nullptr ? *stats : unused;
@@ -260,7 +299,7 @@ void Renderer::Draw(const RenderSettings& settings, int max_rows, Film& film, co
   try {
     RunWithThreads(settings.threads, [&] {
       s.threads = CurrentThreadCount();
-      frames_->Render(settings, max_rows, film, receive, s);
+      frames_->Render(settings, output, s);
     });
   } catch (const std::bad_alloc&) {
     throw Error(ErrorCode::OutOfMemory, "the machine has too little memory for this picture of this scene", {},

@@ -57,12 +57,12 @@ class TileWorker final : public RecordTable {
   TileWorker(const TilePassInput& input, const ShadingPositions& positions, const ViewDirections& directions)
       : in_(input), positions_(positions), directions_(directions), lighting_(input.lighting) {}
 
-  // `t`: counted from the row of tiles that is the film's top.
-  void Run(std::size_t t, int first_row, Film& film, TileCounts& counts) {
+  // `t`: counted from the row of tiles that is the output's top.
+  void Run(std::size_t t, int first_row, const TileOutput& output, TileCounts& counts) {
     counts_ = &counts;
-    const int size = in_.grid.tile_size, film_y0 = static_cast<int>(t) / in_.grid.columns * size;
+    const int size = in_.grid.tile_size, output_y0 = static_cast<int>(t) / in_.grid.columns * size;
     tile_.x0 = static_cast<int>(t) % in_.grid.columns * size;
-    tile_.y0 = first_row * size + film_y0;
+    tile_.y0 = first_row * size + output_y0;
     tile_.width = std::min(size, in_.grid.width - tile_.x0);
     tile_.height = std::min(size, in_.grid.height - tile_.y0);
     tile_.tile_size = size;
@@ -101,8 +101,16 @@ class TileWorker final : public RecordTable {
     for (int y = 0; y < tile_.height; ++y) {
       const glm::vec4* row = pixels_.data() + std::size_t(y) * std::size_t(size);
       for (int x = 0; x < tile_.width; ++x) covered += row[x].a > 0.0f;
-      std::copy(row, row + tile_.width,
-                film.pixels.begin() + std::ptrdiff_t(film_y0 + y) * film.width + tile_.x0);
+      const std::ptrdiff_t first = std::ptrdiff_t(output_y0 + y) * in_.grid.width + tile_.x0;
+      if (output.film != nullptr) {
+        std::copy(row, row + tile_.width, output.film + first);
+        continue;
+      }
+      DevelopTask task = output.develop;
+      task.pixels = &row->x;
+      task.count = static_cast<std::size_t>(tile_.width);
+      task.out += first * static_cast<std::ptrdiff_t>(task.PixelBytes());
+      DevelopPixels(task);
     }
     counts.covered += static_cast<std::uint64_t>(covered);
   }
@@ -376,8 +384,8 @@ class TileWorker final : public RecordTable {
   Compositor compositor_;
   std::vector<const TriangleRecord*> records_;
   std::vector<std::int32_t> numbers_;
-  int material_ = -1;         // of the record that came last
-  bool one_material_ = true;  // all records have it
+  int material_ = -1;                                                 // of the record that came last
+  bool one_material_ = true;                                          // all records have it
   std::vector<std::pair<std::uint32_t, std::uint32_t>> by_material_;  // material, fragment
   std::vector<std::uint32_t> batch_;
   std::vector<SetupOfRecord> setup_of_record_;
@@ -421,7 +429,7 @@ class WorkerPool {
 
 }  // namespace
 
-void RunTiles(const TilePassInput& input, int first_row, int end_row, Film& film, RenderStats& stats) {
+void RunTiles(const TilePassInput& input, int first_row, int end_row, const TileOutput& output, RenderStats& stats) {
   WorkerPool pool(input);
   const int first_tile = first_row * input.grid.columns;
   const std::size_t tile_count = std::size_t((end_row - first_row) * input.grid.columns);
@@ -431,7 +439,7 @@ void RunTiles(const TilePassInput& input, int first_row, int end_row, Film& film
   std::mutex progress_mutex;
   ParallelFor(tile_count, 1, [&](std::size_t begin, std::size_t end) {
     std::unique_ptr<TileWorker> worker = pool.Take();
-    for (std::size_t i = begin; i < end; ++i) worker->Run(i, first_row, film, counts[i]);
+    for (std::size_t i = begin; i < end; ++i) worker->Run(i, first_row, output, counts[i]);
     pool.Return(std::move(worker));
     const std::size_t now = done += end - begin;
     if (input.settings.progress && now % 16 == 0) {

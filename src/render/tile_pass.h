@@ -1,8 +1,10 @@
 // From tile lists to the film: the raster, shade, blend and resolve stages, tile by tile.
 #pragma once
 
-#include "facet/film.h"
+#include <glm/glm.hpp>
+
 #include "facet/render.h"
+#include "film/develop_pixels.h"
 #include "frame/tile_grid.h"
 #include "light/lighting.h"
 #include "render/geometry_pass.h"
@@ -19,8 +21,15 @@ struct TilePassInput {
   const RenderSettings& settings;
 };
 
-// Draws the rows of tiles [first_row, end_row) of the grid, which the geometry has lists for, into `film`, which the
-// caller has sized for them: its top row is the first one's. Adds to the counts of `stats`.
-void RunTiles(const TilePassInput& input, int first_row, int end_row, Film& film, RenderStats& stats);
+// Where the pixels of tiles go: to a film, or developed at once, while they are in the nearest cache, to a picture.
+// Both are as wide as the grid.
+struct TileOutput {
+  glm::vec4* film = nullptr;  // null: `develop` has all but the pixels and their number
+  DevelopTask develop;
+};
+
+// Draws the rows of tiles [first_row, end_row) of the grid, which the geometry has lists for. The output, which is
+// large enough for them, begins with the first. Adds to the counts of `stats`.
+void RunTiles(const TilePassInput& input, int first_row, int end_row, const TileOutput& output, RenderStats& stats);
 
 }  // namespace facet

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "facet/digest.h"
 #include "facet/error.h"
@@ -33,6 +34,7 @@ TEST(Renderer, FramesEqualSingleRenderings) {
   settings.height = 50;
   Renderer renderer(loaded.scene);
   Film film;
+  Image picture;
   const RenderSettings first = settings;
   Digest before{};
   const auto expect_equal = [&](const char* what) {
@@ -43,6 +45,8 @@ TEST(Renderer, FramesEqualSingleRenderings) {
     EXPECT_EQ(ToHex(HashFilm(film)), ToHex(HashFilm(alone))) << what;
     EXPECT_NE(HashFilm(film), before) << what << " changes nothing";
     before = HashFilm(film);
+    renderer.RenderPicture(settings, {}, picture);
+    EXPECT_EQ(ToHex(HashImage(picture)), ToHex(HashImage(Develop(alone, {})))) << what;
   };
   expect_equal("first");
   settings.camera = OrbitCamera{1.0, 1.2, {}, {}, {}};
@@ -77,13 +81,49 @@ TEST(Renderer, FramesEqualSingleRenderings) {
   expect_equal("back to the first");
 }
 
+// Of every kind, and of sizes that are no multiple of a tile or of the lanes.
+TEST(Renderer, PicturesAreDevelopedFilms) {
+  const LoadedScene loaded = LoadGltf(std::string(FACET_SOURCE_DIR) + "/assets/scenes/animated.glb");
+  Renderer renderer(loaded.scene);
+  Image picture;
+  RenderSettings settings;
+  for (const auto& [width, height] : {std::pair{101, 67}, {64, 64}, {3, 33}}) {
+    settings.width = width, settings.height = height;
+    for (const int tile_size : {8, 64}) {
+      settings.tile_size = tile_size;
+      RenderStats of_film, of_picture;
+      const Film film = Render(loaded.scene, settings, &of_film);
+      for (const bool opaque : {false, true}) {
+        DisplaySettings display;
+        display.tone_map = ToneMap::Aces;
+        display.exposure_ev = 0.5;
+        if (opaque) display.background_srgb = glm::vec3(0.2f, 0.9f, 0.4f);
+        for (const ChannelType type : {ChannelType::U8, ChannelType::U16, ChannelType::F32}) {
+          renderer.RenderPicture(settings, display, picture, &of_picture, type);
+          const Image developed = Develop(film, display, type);
+          EXPECT_EQ(picture.width, developed.width);
+          EXPECT_EQ(picture.height, developed.height);
+          EXPECT_EQ(picture.channels, developed.channels);
+          EXPECT_EQ(picture.encoding, developed.encoding);
+          EXPECT_TRUE(picture.bytes == developed.bytes)
+              << width << " " << tile_size << " " << opaque << " " << int(type);
+          EXPECT_EQ(of_picture.covered_pixels, of_film.covered_pixels);
+        }
+      }
+    }
+  }
+  DisplaySettings wrong;
+  wrong.background_srgb = glm::vec3(2.0f);
+  EXPECT_THROW(renderer.RenderPicture(settings, wrong, picture), Error);
+}
+
 TEST(Renderer, DecodesOnceAndSaysEachTimeWhatFailed) {
   Scene scene;
   Material material;
   material.base_color_texture =
       Ref(AddTexture(scene, Picture(4, 4, [](int x, int y) { return glm::u8vec4(60 * x, 60 * y, 128, 255); }), {}));
-  material.emissive_texture = Ref(AddTexture(
-      scene, Picture(2, 2, [](int x, int y) { return glm::u8vec4(100 * x, 100 * y, 0, 255); }), {}));
+  material.emissive_texture =
+      Ref(AddTexture(scene, Picture(2, 2, [](int x, int y) { return glm::u8vec4(100 * x, 100 * y, 0, 255); }), {}));
   material.emissive_factor = {1.0f, 1.0f, 1.0f};
   class Broken final : public ImageSource {
    public:
@@ -126,12 +166,13 @@ TEST(Tiles, NeverChangeTheBackground) {
   for (int width : {57, 64, 128, 131}) {
     settings.width = width;
     const Digest expected = HashWithTiles(loaded.scene, settings, 64);
-    for (int tile : {8, 16, 32}) EXPECT_EQ(HashWithTiles(loaded.scene, settings, tile), expected) << width << " " << tile;
+    for (int tile : {8, 16, 32})
+      EXPECT_EQ(HashWithTiles(loaded.scene, settings, tile), expected) << width << " " << tile;
   }
 }
 
-// Which lights are left out differs from tile to tile; what they give does not. Slivers, that cover a pixel far from where
-// they are lit, among the triangles.
+// Which lights are left out differs from tile to tile; what they give does not. Slivers, that cover a pixel far from
+// where they are lit, among the triangles.
 TEST(Tiles, NeverChangeTheLights) {
   Scene scene;
   Material material;
