@@ -56,9 +56,9 @@ using CameraChoice = std::variant<AutoCamera, OrbitCamera, SceneCamera, FreeCame
 struct EnvironmentSettings {
   enum class Kind : std::uint8_t { Studio, None, Image };
   Kind kind = Kind::Studio;
-  std::shared_ptr<const Image> image;               // Kind::Image: 3 or 4 channels, any type
+  std::shared_ptr<const Image> image;  // Kind::Image: 3 or 4 channels, any type
   std::shared_ptr<const EnvironmentSource> source;  // Kind::Image where `image` is null: a file
-  double rotation = 0.0;                            // radians about +Y, counter-clockwise seen from above
+  double rotation = 0.0;               // radians about +Y, counter-clockwise seen from above
   double intensity = 1.0;
 };
 
@@ -83,14 +83,14 @@ enum class Feature : std::uint32_t {
   BaseColorTexture = 1u << 0,
   MetallicRoughnessTexture = 1u << 1,
   NormalTexture = 1u << 2,
-  Occlusion = 1u << 3,  // the texture
-  Emission = 1u << 4,   // factor and texture
+  Occlusion = 1u << 3,         // the texture
+  Emission = 1u << 4,          // factor and texture
   VertexColors = 1u << 5,
   EnvironmentLight = 1u << 6,  // the background stays
   PunctualLights = 1u << 7,
-  AlphaTest = 1u << 8,  // MASK is drawn as OPAQUE
-  Blending = 1u << 9,   // BLEND is drawn as OPAQUE
-  Skins = 1u << 10,     // meshes stand where their nodes do
+  AlphaTest = 1u << 8,         // MASK is drawn as OPAQUE
+  Blending = 1u << 9,          // BLEND is drawn as OPAQUE
+  Skins = 1u << 10,            // meshes stand where their nodes do
   MorphTargets = 1u << 11,
 };
 inline constexpr int kFeatureCount = 12;
@@ -112,10 +112,10 @@ class FeatureSet {
 // --- Settings --------------------------------------------------------------------------------------------------------
 
 struct RenderSettings {
-  int width = 1024;                          // 1 to 16384
-  int height = 1024;                         // 1 to 16384
-  int samples = 4;                           // coverage samples per pixel: 1, 2, 4 or 8
-  int threads = 0;                           // 0: one per core
+  int width = 1024;   // 1 to 16384
+  int height = 1024;  // 1 to 16384
+  int samples = 4;    // coverage samples per pixel: 1, 2, 4 or 8
+  int threads = 0;    // 0: one per core
   int max_anisotropy = 8;                    // 1 to 16
   MipFilter mip_filter = MipFilter::Linear;  // the most that samplers get
   TexelBits texels = TexelBits::Mixed;
@@ -124,15 +124,15 @@ struct RenderSettings {
   int environment_samples = 24;  // of the narrowest lobe it is filtered with, wider ones take more: 6 to 768
   IrradianceMethod irradiance = IrradianceMethod::Convolution;
   TangentSource tangents = TangentSource::File;
-  int tile_size = 32;  // 8, 16, 32 or 64: never changes the picture
+  int tile_size = 32;      // 8, 16, 32 or 64: never changes the picture
   // Bytes that the film (or a band of it), the scene's geometry, the frame's textures and its environment may take
   // together; 0: no limit. What is known to need more is refused before it is allocated. The rest (posed copies, lists,
   // what is being decoded, what a Renderer keeps of earlier frames) is not counted.
   std::uint64_t memory_limit = 0;
-  int scene = -1;      // -1: the default one
-  int animation = -1;  // -1: rest pose
-  double time = 0.0;   // seconds
-  int variant = -1;    // -1: none
+  int scene = -1;          // -1: the default one
+  int animation = -1;      // -1: rest pose
+  double time = 0.0;       // seconds
+  int variant = -1;        // -1: none
   CameraChoice camera = AutoCamera{};
   EnvironmentSettings environment;
   Background background = Background::Transparent;
@@ -151,13 +151,13 @@ struct RenderSettings {
 
 // A texture that the frame reads.
 struct TextureStats {
-  int image = -1;             // index into Scene::images
-  bool color = false;         // kept as colour; otherwise as numbers
-  int width = 0, height = 0;  // texels of its largest level
+  int image = -1;            // index into Scene::images
+  bool color = false;        // kept as colour; otherwise as numbers
+  int width = 0, height = 0; // texels of its largest level
   int levels = 0;
-  int channels = 0;       // no more than are read
-  int bits = 0;           // of a channel
-  std::size_t bytes = 0;  // of all levels
+  int channels = 0;          // no more than are read
+  int bits = 0;              // of a channel
+  std::size_t bytes = 0;     // of all levels
 };
 
 // Times are wall-clock seconds; counts are exact and independent of thread count.
@@ -166,25 +166,25 @@ struct RenderStats {
          total_seconds = 0;  // raster: tiles, from coverage to resolve
   std::uint64_t drawables = 0;
   std::uint64_t vertices = 0;
-  std::uint64_t triangles_in = 0;       // as the scene states them, points and lines included
-  std::uint64_t triangles_culled = 0;   // back faces, and those that cannot cover a sample; pieces of clipped ones too
-  std::uint64_t triangles_clipped = 0;  // cut by a plane, or wholly outside
-  std::uint64_t triangles_binned = 0;   // screen triangles: pieces count apart, a point or line is two
+  std::uint64_t triangles_in = 0;        // as the scene states them, points and lines included
+  std::uint64_t triangles_culled = 0;    // back faces, and those that cannot cover a sample; pieces of clipped ones too
+  std::uint64_t triangles_clipped = 0;   // cut by a plane, or wholly outside
+  std::uint64_t triangles_binned = 0;    // screen triangles: pieces count apart, a point or line is two
   std::uint64_t tiles = 0;
-  std::uint64_t fragments_shaded = 0;  // opaque and masked
+  std::uint64_t fragments_shaded = 0;    // opaque and masked
   std::uint64_t fragments_blended = 0;
-  std::uint64_t covered_pixels = 0;  // with alpha > 0
+  std::uint64_t covered_pixels = 0;      // with alpha > 0
   std::uint64_t images_decoded = 0;
-  std::uint64_t texture_bytes = 0;      // all mip levels kept
-  std::uint64_t environment_bytes = 0;  // of the prepared environment
-  std::uint64_t pose_bytes = 0;         // of geometry that was deformed, or completed with normals and tangents
-  int environment_size = 0;             // texels along its sharpest map
+  std::uint64_t texture_bytes = 0;       // all mip levels kept
+  std::uint64_t environment_bytes = 0;   // of the prepared environment
+  std::uint64_t pose_bytes = 0;          // of geometry that was deformed, or completed with normals and tangents
+  int environment_size = 0;              // texels along its sharpest map
   std::vector<TextureStats> textures;
   std::uint64_t non_finite_fragments = 0;  // replaced by black, see docs/conventions.md
-  std::string target;                      // instruction set: SCALAR, SSE4, AVX2 or AVX3
+  std::string target;                    // instruction set: SCALAR, SSE4, AVX2 or AVX3
   int threads = 0;
-  std::vector<std::string> left_out;  // what the frame did without, one line each: "WHAT: WHY"
-  std::vector<std::string> warnings;  // images that could not be decoded, and the like
+  std::vector<std::string> left_out;     // what the frame did without, one line each: "WHAT: WHY"
+  std::vector<std::string> warnings;     // images that could not be decoded, and the like
 };
 
 // Renders. Safe to call from several threads at once. Throws Error: InvalidUsage for settings out of range,
@@ -214,9 +214,9 @@ class Renderer {
   // Replaces `film`, using its memory. Throws what Render() does; the film is lost then. Not from two threads at once.
   void Render(const RenderSettings& settings, Film& film, RenderStats* stats = nullptr);
 
-  // Replaces `picture` by Develop() of the film that Render() would make, using its memory: each tile is developed
-  // while it is in the nearest cache, and there is no film, which takes 16 bytes a pixel. Throws what both do; the
-  // picture is lost then.
+  // Replaces `picture` by Develop() of the film that Render() would make, using its memory: each tile is developed while
+  // it is in the nearest cache, and there is no film, which takes 16 bytes a pixel. Throws what both do; the picture is
+  // lost then.
   void RenderPicture(const RenderSettings& settings, const DisplaySettings& display, Image& picture,
                      RenderStats* stats = nullptr, ChannelType type = ChannelType::U8);
 

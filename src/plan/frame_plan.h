@@ -43,9 +43,9 @@ struct FramePlan {
   bool punctual_lights = false;
   bool alpha_test = false;
   bool blending = false;
-  bool dark_light = false;            // a light of no intensity shines as well
-  bool every_texture = false;         // decoded even if no visible material reads it
-  FeatureSet uses;                    // of the scene; not what is only done to show that it changes nothing
+  bool dark_light = false;     // a light of no intensity shines as well
+  bool every_texture = false;  // decoded even if no visible material reads it
+  FeatureSet uses;             // of the scene; not what is only done to show that it changes nothing
   std::vector<std::string> left_out;  // one line each: "WHAT: WHY"
 };
 

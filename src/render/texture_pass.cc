@@ -23,8 +23,8 @@ double ExpectedBytes(const ImageHeader& header, const PlannedTexture& planned, T
   const bool grey = header.channels == 1 || header.channels == 2, no_alpha = header.channels % 2 == 1;
   const auto read = static_cast<unsigned>(planned.channels & (no_alpha ? kRgb : kRgba));
   const int numbers = grey ? ((read & kRgb) != 0) + ((read & kA) != 0) : std::popcount(read);
-  const bool wide =
-      texels == TexelBits::Mixed ? planned.role == TextureRole::Color || header.bits > 8 : texels == TexelBits::Sixteen;
+  const bool wide = texels == TexelBits::Mixed ? planned.role == TextureRole::Color || header.bits > 8
+                                               : texels == TexelBits::Sixteen;
   return double(TexelCount(header.width, header.height, planned.mips)) * (wide ? 2.0 : 1.0) * std::max(numbers, 1);
 }
 
@@ -91,8 +91,7 @@ void DecodeTextures(const Scene& scene, const std::vector<bool>& material_visibl
     if (!needed[t] || entry.data != nullptr || !entry.problem.empty()) continue;
     const int image = plan.textures[t].image;
     if (image == kWhiteImage) {
-      entry.data =
-          std::make_unique<const TextureData>(BuildTexture(WhitePixel(), plan.textures[t].role, false, texels));
+      entry.data = std::make_unique<const TextureData>(BuildTexture(WhitePixel(), plan.textures[t].role, false, texels));
       continue;
     }
     if (std::find(images.begin(), images.end(), image) == images.end()) images.push_back(image);
@@ -147,9 +146,8 @@ void DecodeTextures(const Scene& scene, const std::vector<bool>& material_visibl
     if (needed[t] && entry.data != nullptr) {
       const TextureData& data = *entry.data;
       stats.texture_bytes += data.bytes.size();
-      stats.textures.push_back({plan.textures[t].image, plan.textures[t].role == TextureRole::Color,
-                                data.level_width[0], data.level_height[0], data.levels, data.stored, data.wide ? 16 : 8,
-                                data.bytes.size()});
+      stats.textures.push_back({plan.textures[t].image, plan.textures[t].role == TextureRole::Color, data.level_width[0],
+                                data.level_height[0], data.levels, data.stored, data.wide ? 16 : 8, data.bytes.size()});
     }
     if (!needed[t] || entry.problem.empty()) continue;
     const int image = plan.textures[t].image;
