@@ -18,7 +18,7 @@ import tempfile
 import harness
 
 TRACKED = pathlib.Path(__file__).resolve().parent / "instructions.json"
-STAGES = {"geometry": "RunGeometry", "tiles": "RunTiles", "develop": "Develop"}
+STAGES = {"geometry": "RunGeometry", "tiles": "RunTiles", "develop": "DevelopPixels"}
 SIZE = (512, 512)
 
 

@@ -1,6 +1,6 @@
 // Steady frames, as an interactive viewer or a turntable draws them: the file is loaded, the camera goes round.
-//   orbit_bench MODEL [HDRI|none|studio [WIDTH HEIGHT [SAMPLES [THREADS [FRAMES [RADIUS [STEP]]]]]]]
-// STEP: degrees from one frame to the next [360 / FRAMES]; 0 draws the same frame again and again.
+//   orbit_bench MODEL [HDRI|none|studio [WIDTH HEIGHT [SAMPLES [THREADS [FRAMES [RADIUS [STEP [ANISOTROPY]]]]]]]]
+// STEP: degrees from one frame to the next; 0 draws the same frame again and again, less goes once around.
 // It prints one line of JSON: medians over the frames, in milliseconds, without the first frame. Frames are pictures of
 // 8 bits; the environment is the background where it is a picture.
 #include <algorithm>
@@ -31,7 +31,8 @@ int main(int argc, char** argv) try {
   const auto argument = [&](int i, const char* otherwise) { return argc > i ? argv[i] : otherwise; };
   if (argc < 2) {
     std::fprintf(stderr,
-                 "usage: orbit_bench MODEL [HDRI|none|studio [W H [SAMPLES [THREADS [FRAMES [RADIUS [STEP]]]]]]]\n");
+                 "usage: orbit_bench MODEL [HDRI|none|studio [W H [SAMPLES [THREADS [FRAMES [RADIUS [STEP "
+                 "[ANISOTROPY]]]]]]]]\n");
     return 2;
   }
   const facet::LoadedScene loaded = facet::LoadGltf(argv[1]);
@@ -50,7 +51,9 @@ int main(int argc, char** argv) try {
   settings.threads = std::atoi(argument(6, "0"));
   const int frames = std::max(std::atoi(argument(7, "36")), 1);
   const double radius = std::atof(argument(8, "0"));
-  const double step = argc > 9 ? std::atof(argv[9]) * std::numbers::pi / 180.0 : 2.0 * std::numbers::pi / frames;
+  const double degrees = std::atof(argument(9, "-1"));
+  const double step = (degrees >= 0.0 ? degrees : 360.0 / frames) * std::numbers::pi / 180.0;
+  settings.max_anisotropy = std::atoi(argument(10, "8"));
 
   facet::Renderer renderer(loaded.scene);
   facet::Image picture;

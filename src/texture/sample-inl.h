@@ -211,8 +211,8 @@ HWY_INLINE bool HaveSameTaps(const TextureSlot& a, const TextureSlot& b) {
 
 // The places that a sample of `slot` reads at interpolated coordinates with their derivatives over one pixel.
 template <class T>
-HWY_INLINE void MakeTextureTaps(const TextureSlot& slot, Vec2<T> uv_in, Vec2<T> duv_dx_in, Vec2<T> duv_dy_in,
-                                TextureTaps<T>& out) {
+HWY_NOINLINE void MakeTextureTaps(const TextureSlot& slot, const Vec2<T>& uv_in, const Vec2<T>& duv_dx_in,
+                                  const Vec2<T>& duv_dy_in, TextureTaps<T>& out) {
   const float* m = slot.transform;
   const auto rotate = [&](Vec2<T> d) HWY_ATTR {
     return Vec2<T>{T(m[0]) * d.x + T(m[1]) * d.y, T(m[3]) * d.x + T(m[4]) * d.y};
@@ -403,9 +403,10 @@ HWY_INLINE void SumTexelsInLanes(const TextureData* const* textures, const Textu
 }
 #endif
 
-// Sums the texels at `taps` of kCount textures that all have those taps. A sparse one is summed alone.
+// Sums the texels at `taps` of kCount textures that all have those taps. A sparse one is summed alone. (A call for each of
+// the ways to read costs a shader's kernel less than having them all within it.)
 template <int kCount, class T>
-HWY_INLINE void SumTexels(const TextureData* const* textures, const TextureTaps<T>& taps, TexelSums<T>* sums) {
+HWY_NOINLINE void SumTexels(const TextureData* const* textures, const TextureTaps<T>& taps, TexelSums<T>* sums) {
   if constexpr (kInLanes<T>) {
     if (kCount == 1 && textures[0]->sparse) {
       SumTexelsInLanes<1, true>(textures, taps, sums);
