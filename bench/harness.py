@@ -178,10 +178,11 @@ def instructions(command, stages=()):
     return int(collected[1]), within
 
 
-def orbit(build, model, light="studio", size=(512, 512), samples=1, threads=1, frames=2, radius=0, step=None):
-    """orbit_bench's command line. step: degrees between frames; None: once around."""
+def orbit(build, model, light="studio", size=(512, 512), samples=1, threads=1, frames=2, radius=0, step=-1,
+          anisotropy=8):
+    """orbit_bench's command line. step: degrees between frames; less than 0: once around."""
     program = need_program(build / "bench" / "orbit_bench", "the target orbit_bench")
-    return [program, model, light, *size, samples, threads, frames, radius] + ([] if step is None else [step])
+    return [program, model, light, *size, samples, threads, frames, radius, step, anisotropy]
 
 
 def steady_frame(build, model, stages=(), **options):
