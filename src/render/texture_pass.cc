@@ -147,7 +147,8 @@ void DecodeTextures(const Scene& scene, const std::vector<bool>& material_visibl
       const TextureData& data = *entry.data;
       stats.texture_bytes += data.bytes.size();
       stats.textures.push_back({plan.textures[t].image, plan.textures[t].role == TextureRole::Color, data.level_width[0],
-                                data.level_height[0], data.levels, data.stored, data.wide ? 16 : 8, data.bytes.size()});
+                                data.level_height[0], data.levels, data.stored, data.wide ? 16 : 8, data.bytes.size(),
+                                data.dark.Share()});
     }
     if (!needed[t] || entry.problem.empty()) continue;
     const int image = plan.textures[t].image;

@@ -1,5 +1,6 @@
 // An Explanation for people, as tables, and for programs, as JSON.
 #include <algorithm>
+#include <cmath>
 #include <array>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -102,7 +103,8 @@ std::string TexturesText(const Explanation& e) {
     if (t.kept) {
       row.insert(row.end(),
                  {std::to_string(t.kept->levels), std::to_string(t.kept->channels), std::to_string(t.kept->bits),
-                  Bytes(double(t.kept->bytes))});
+                  Bytes(double(t.kept->bytes)) +
+                      (t.kept->dark > 0.0 ? ", " + Fixed(std::floor(100.0 * t.kept->dark), 0) + " % black" : "")});
     } else {
       row.insert(row.end(), {"", "", "", "not decoded: nothing visible reads it, or it is broken"});
     }
@@ -183,6 +185,7 @@ Json TexturesJson(const Explanation& e) {
       texture["channels"] = t.kept->channels;
       texture["bits"] = t.kept->bits;
       texture["bytes"] = t.kept->bytes;
+      texture["dark"] = t.kept->dark;
     }
     list.push_back(std::move(texture));
   }

@@ -1,6 +1,7 @@
 // Textures as the samplers read them: linear light, with all mip levels.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -31,6 +32,10 @@ struct DarkCells {
   float reach = 0.0f;             // texels of level 0: what is nearer than this to a dark cell is black
   std::vector<std::int32_t> lit;  // row by row: whether a cell or one of its eight neighbours, as the picture repeats,
                                   // shows something; 0: dark
+
+  double Share() const {
+    return lit.empty() ? 0.0 : double(std::count(lit.begin(), lit.end(), 0)) / double(lit.size());
+  }
 };
 
 // One image with its mip levels, no more of its channels than are read: texel (x, y) of level l is number

@@ -124,6 +124,28 @@ TEST(Explain, NamesAndCountsWhatTheFrameUses) {
   }
 }
 
+// Of a texture of emission: the share that nothing reads. The same picture as base colour is read everywhere.
+TEST(Explain, TheShareOfEmissionThatIsBlack) {
+  for (const bool as_color : {false, true}) {
+    Scene scene;
+    // A texel of one of 64 x 64 cells, which lights nine.
+    const TextureRef picture = Ref(AddTexture(scene, Picture(128, 128, [](int x, int y) {
+                                                return glm::u8vec4(x == 64 && y == 64 ? 200 : 0, 0, 0, 255);
+                                              })));
+    Material material;
+    material.emissive_factor = glm::vec3(1.0f);
+    material.emissive_texture = picture;
+    if (as_color) material.base_color_texture = picture;
+    Add(scene, Rectangle(-1, -1, 1, 1), AddMaterial(scene, material));
+    const Explanation e = Explain(scene, Settings(16, 16, 1, Perspective(1.0, {0, 0, 3})));
+    ASSERT_EQ(e.textures.size(), 1u);
+    ASSERT_TRUE(e.textures[0].kept);
+    EXPECT_DOUBLE_EQ(e.textures[0].kept->dark, as_color ? 0.0 : 1.0 - 9.0 / 4096.0);
+    const bool said = ToText(e, "scene").find("99 % black") != std::string::npos;
+    EXPECT_EQ(said, !as_color);
+  }
+}
+
 TEST(Explain, WhatIsLeftOutOnRequestIsSaid) {
   Scene scene;
   Material material;
