@@ -1,7 +1,7 @@
 // An Explanation for people, as tables, and for programs, as JSON.
 #include <algorithm>
-#include <cmath>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <string>
