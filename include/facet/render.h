@@ -165,7 +165,7 @@ struct TextureStats {
 // Times are wall-clock seconds; counts are exact and independent of thread count.
 struct RenderStats {
   double pose_seconds = 0, environment_seconds = 0, texture_seconds = 0, geometry_seconds = 0, raster_seconds = 0,
-         total_seconds = 0;  // raster: tiles, from coverage to resolve
+         total_seconds = 0;  // texture: tangents as well; raster: tiles, from coverage to resolve
   std::uint64_t drawables = 0;
   std::uint64_t vertices = 0;
   std::uint64_t triangles_in = 0;        // as the scene states them, points and lines included

@@ -77,13 +77,16 @@ void RunGeometry(const FrameView& view, const PosedScene& posed, const FramePlan
     }
   });
 
+  frame.drawable_visible.assign(frame.drawables.size(), false);
   frame.material_visible.assign(plan.materials.size(), false);
   std::uint64_t record_count = 0;
   for (const TriangleChunk& chunk : frame.chunks) {
     record_count += chunk.records.size();
     stats.triangles_culled += chunk.culled;
     stats.triangles_clipped += chunk.clipped;
-    if (!chunk.tiles.empty()) frame.material_visible[std::size_t(frame.drawables[chunk.drawable].material)] = true;
+    if (chunk.tiles.empty()) continue;
+    frame.drawable_visible[chunk.drawable] = true;
+    frame.material_visible[std::size_t(frame.drawables[chunk.drawable].material)] = true;
   }
   stats.triangles_binned = record_count;
   if (record_count > INT32_MAX) {

@@ -16,11 +16,12 @@ struct FrameGeometry {
   std::vector<FrameDrawable> drawables;
   std::vector<TriangleChunk> chunks;
   TileLists lists;
-  std::vector<bool> material_visible;  // of FramePlan::materials: some triangle of it reached a tile
+  std::vector<bool> drawable_visible;  // some triangle of it reached a tile
+  std::vector<bool> material_visible;  // of FramePlan::materials: some drawable with it is visible
   VertexBuffer vertices;
 };
 
-// Fills `frame` but for its lists; whatever it held is lost. `posed` must outlive it.
+// Fills `frame` but for its lists; whatever it held is lost. `posed` must outlive it, and may be incomplete.
 void RunGeometry(const FrameView& view, const PosedScene& posed, const FramePlan& plan, const TileGrid& grid,
                  int samples, FrameGeometry& frame, RenderStats& stats);
 

@@ -1,6 +1,7 @@
 #include "render/texture_pass.h"
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <exception>
 #include <map>
@@ -65,7 +66,7 @@ Image WhitePixel() { return {1, 1, 4, ChannelType::U8, Encoding::Srgb, std::vect
 }  // namespace
 
 void DecodeTextures(const Scene& scene, const std::vector<bool>& material_visible, TexelBits texels, FramePlan& plan,
-                    FrameTextures& textures, MemoryBudget& budget, RenderStats& stats) {
+                    FrameTextures& textures, MemoryBudget& budget, const WorkBeside& beside, RenderStats& stats) {
   if (textures.planned != plan.textures || textures.texels != texels) {
     FrameTextures now{plan.textures, texels, {}};
     now.entries.resize(plan.textures.size());
@@ -98,42 +99,41 @@ void DecodeTextures(const Scene& scene, const std::vector<bool>& material_visibl
   }
   std::vector<std::exception_ptr> failures(images.size());  // the first in the file's order is passed on
   // The largest first: what comes last should not leave the other threads idle for long.
-  std::vector<std::pair<std::size_t, std::size_t>> order;  // bytes of a file, index in `images`
+  std::vector<std::pair<std::size_t, std::size_t>> order = {{beside.size, images.size()}};  // bytes, index in `images`
   for (std::size_t i = 0; i < images.size(); ++i) {
     const auto header = scene.images[std::size_t(images[i])].source->Header();
     order.emplace_back(header ? header->bytes : 0, i);
   }
   std::sort(order.rbegin(), order.rend());
-  ParallelFor(images.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t piece = begin; piece < end; ++piece) {
-      const std::size_t i = order[piece].second;
-      const auto for_each_role = [&](auto&& body) {
-        for (std::size_t t = 0; t < needed.size(); ++t) {
-          const bool missing = needed[t] && textures.entries[t].data == nullptr;
-          if (missing && plan.textures[t].image == images[i]) body(plan.textures[t], textures.entries[t]);
-        }
-      };
-      const ImageSource& source = *scene.images[std::size_t(images[i])].source;
-      try {
-        std::map<FrameTextures::Entry*, TextureBuilder> builders;
-        source.DecodeRows([&](const Image& rows, int height) {
-          for_each_role([&](const PlannedTexture& planned, FrameTextures::Entry& entry) {
-            builders
-                .try_emplace(&entry, rows, height, planned.role, planned.mips, texels, planned.channels,
-                             planned.emission)
-                .first->second.Add(rows);
-          });
-        });
-        if (builders.empty()) throw Error(ErrorCode::InvalidInput, "a picture without rows");
-        for (auto& [entry, builder] : builders) entry->data = std::make_unique<const TextureData>(builder.Finish());
-      } catch (const Error& error) {
-        if (error.code() != ErrorCode::InvalidInput && error.code() != ErrorCode::NotFound) {
-          failures[i] = std::current_exception();
-          continue;
-        }
-        const std::string problem = error.where().empty() ? source.Name() + ": " + error.what() : error.what();
-        for_each_role([&](const PlannedTexture&, FrameTextures::Entry& entry) { entry.problem = problem; });
+  std::atomic<std::size_t> next = 0;  // whoever is free takes the next; ParallelFor deals its pieces out in runs
+  ParallelFor(order.size(), 1, [&](std::size_t, std::size_t) {
+    const std::size_t i = order[next++].second;
+    if (i == images.size()) return beside.run();
+    const auto for_each_role = [&](auto&& body) {
+      for (std::size_t t = 0; t < needed.size(); ++t) {
+        const bool missing = needed[t] && textures.entries[t].data == nullptr;
+        if (missing && plan.textures[t].image == images[i]) body(plan.textures[t], textures.entries[t]);
       }
+    };
+    const ImageSource& source = *scene.images[std::size_t(images[i])].source;
+    try {
+      std::map<FrameTextures::Entry*, TextureBuilder> builders;
+      source.DecodeRows([&](const Image& rows, int height) {
+        for_each_role([&](const PlannedTexture& planned, FrameTextures::Entry& entry) {
+          builders
+              .try_emplace(&entry, rows, height, planned.role, planned.mips, texels, planned.channels, planned.emission)
+              .first->second.Add(rows);
+        });
+      });
+      if (builders.empty()) throw Error(ErrorCode::InvalidInput, "a picture without rows");
+      for (auto& [entry, builder] : builders) entry->data = std::make_unique<const TextureData>(builder.Finish());
+    } catch (const Error& error) {
+      if (error.code() != ErrorCode::InvalidInput && error.code() != ErrorCode::NotFound) {
+        failures[i] = std::current_exception();
+        return;
+      }
+      const std::string problem = error.where().empty() ? source.Name() + ": " + error.what() : error.what();
+      for_each_role([&](const PlannedTexture&, FrameTextures::Entry& entry) { entry.problem = problem; });
     }
   });
   for (const std::exception_ptr& failure : failures) {

@@ -1,6 +1,7 @@
 // Decoding the images that visible materials read.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -23,11 +24,17 @@ struct FrameTextures {
   std::vector<Entry> entries;  // as many
 };
 
-// Decodes what visible materials read and `textures` lacks, and fills the texture slots of the plan's materials. An
-// image that cannot be decoded gives a warning, and the materials do without it. Throws Error(MissingModule) where an
-// image needs a module that is not installed, Error(OutOfMemory) for images beyond the limits, before any is decoded
-// where their headers say so.
+// Other work for the same threads.
+struct WorkBeside {
+  std::function<void()> run;
+  std::size_t size = 0;  // about as long as a picture's file of so many bytes takes to decode
+};
+
+// Decodes what visible materials read and `textures` lacks, runs `beside`, and fills the texture slots of the plan's
+// materials. An image that cannot be decoded gives a warning, and the materials do without it. Throws
+// Error(MissingModule) where an image needs a module that is not installed, Error(OutOfMemory) for images beyond the
+// limits, before any is decoded where their headers say so.
 void DecodeTextures(const Scene& scene, const std::vector<bool>& material_visible, TexelBits texels, FramePlan& plan,
-                    FrameTextures& textures, MemoryBudget& budget, RenderStats& stats);
+                    FrameTextures& textures, MemoryBudget& budget, const WorkBeside& beside, RenderStats& stats);
 
 }  // namespace facet

@@ -150,8 +150,9 @@ std::string FirstFrameText(const Explanation& e) {
   const RenderStats& s = e.first;
   const auto decoded = s.images_decoded == 1 ? " image)" : " images)";
   return Table({{"The first frame", "ms"},
-                {"pose, tangents", Milliseconds(s.pose_seconds)},
-                {"decode textures (" + std::to_string(s.images_decoded) + decoded, Milliseconds(s.texture_seconds)},
+                {"pose", Milliseconds(s.pose_seconds)},
+                {"textures (" + std::to_string(s.images_decoded) + decoded + ", tangents",
+                 Milliseconds(s.texture_seconds)},
                 {"prepare the environment", Milliseconds(s.environment_seconds)},
                 {"geometry", Milliseconds(s.geometry_seconds)},
                 {"pixels", Milliseconds(s.raster_seconds)},

@@ -28,7 +28,6 @@ struct Shape {
   bool needs_tangents = false;
   int tex_coord = 0;  // the UV set of the normal texture
   bool IsDeformed() const { return morphed || joints != nullptr; }
-  bool IsCopy() const { return IsDeformed() || needs_tangents; }
 };
 
 // What Pose and PosedBounds have in common: which geometries there are and where each is drawn. Its shapes point into
@@ -166,19 +165,21 @@ std::vector<std::vector<std::size_t>> DrawablesOfShapes(const Plan& plan) {
   return drawables;
 }
 
+void Complete(int tex_coord, Primitive& primitive) {
+  if (primitive.normals.empty()) MakeFlat(primitive);
+  MakeTangents(tex_coord, primitive);
+}
+
 // The deformed, completed copy of a shape's primitive. Tangents are made between morph and skin: morphing moves the
 // surface under its UVs, skinning carries tangents along.
-Primitive BuildCopy(const Shape& shape) {
+Primitive Deformed(const Shape& shape) {
   Primitive copy = CopyWithoutDeformers(*shape.primitive);
   if (shape.morphed) ApplyMorph(*shape.primitive, *shape.weights, copy);
   if (shape.joints != nullptr && shape.needs_tangents) {
     copy.joints = shape.primitive->joints;  // the vertices are about to be split
     copy.weights = shape.primitive->weights;
   }
-  if (shape.needs_tangents) {
-    if (copy.normals.empty()) MakeFlat(copy);
-    MakeTangents(shape.tex_coord, copy);
-  }
+  if (shape.needs_tangents) Complete(shape.tex_coord, copy);
   if (shape.joints != nullptr) {
     ApplySkin(*shape.joints, shape.needs_tangents ? copy : *shape.primitive, shape.where, copy);
   }
@@ -216,7 +217,7 @@ void PlaceLightsAndCameras(const Scene& scene, const Plan& plan, PosedScene& pos
 
 }  // namespace
 
-PosedScene Pose(const Scene& scene, const PoseSettings& settings) {
+PosedScene PoseIncomplete(const Scene& scene, const PoseSettings& settings) {
   const FloatEnvironment environment;
   Plan plan = MakePlan(scene, settings);
   PosedScene posed;
@@ -226,33 +227,53 @@ PosedScene Pose(const Scene& scene, const PoseSettings& settings) {
     geometries[i] = plan.shapes[i].primitive;
     posed.skinned |= plan.shapes[i].joints != nullptr;
     posed.morphed |= plan.shapes[i].morphed;
-    if (!plan.shapes[i].IsCopy()) continue;
+    if (!plan.shapes[i].IsDeformed()) continue;
     geometries[i] = &posed.owned.emplace_back();
     copies.emplace_back(i, &posed.owned.back());
   }
   ParallelFor(copies.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) *copies[i].second = BuildCopy(plan.shapes[copies[i].first]);
+    for (std::size_t i = begin; i < end; ++i) *copies[i].second = Deformed(plan.shapes[copies[i].first]);
   });
 
-  // Unless they are deformed, the vertices of the file count, as they do in PosedBounds.
-  const auto positions_of = [&](std::size_t i) -> const std::vector<glm::vec3>& {
-    const Shape& shape = plan.shapes[i];
-    return (shape.IsDeformed() ? geometries[i] : shape.primitive)->positions;
-  };
   std::vector<Bounds> local(plan.shapes.size());
   ParallelFor(plan.shapes.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) local[i] = BoundsOf(positions_of(i));
+    for (std::size_t i = begin; i < end; ++i) local[i] = BoundsOf(geometries[i]->positions);
   });
   const std::vector<std::vector<std::size_t>> drawables_of_shape = DrawablesOfShapes(plan);
   for (std::size_t i = 0; i < plan.shapes.size(); ++i) {
     for (const std::size_t drawable : drawables_of_shape[i]) {
       plan.drawables[drawable].geometry = geometries[i];
       plan.drawables[drawable].bounds_mesh = local[i];
-      AddPlaced(positions_of(i), local[i], plan.drawables[drawable].world_from_mesh, posed.bounds);
+      AddPlaced(geometries[i]->positions, local[i], plan.drawables[drawable].world_from_mesh, posed.bounds);
+    }
+    if (plan.shapes[i].needs_tangents && !plan.shapes[i].IsDeformed()) {
+      posed.incomplete.push_back({drawables_of_shape[i], plan.shapes[i].tex_coord});
     }
   }
   posed.drawables = std::move(plan.drawables);
   PlaceLightsAndCameras(scene, plan, posed);
+  return posed;
+}
+
+Primitive Completed(const Primitive& geometry, int tex_coord) {
+  Primitive copy = CopyWithoutDeformers(geometry);
+  Complete(tex_coord, copy);
+  return copy;
+}
+
+PosedScene Pose(const Scene& scene, const PoseSettings& settings) {
+  const FloatEnvironment environment;
+  PosedScene posed = PoseIncomplete(scene, settings);
+  const std::vector<IncompleteGeometry> incomplete = std::exchange(posed.incomplete, {});
+  const std::size_t first = posed.owned.size();
+  posed.owned.resize(first + incomplete.size());
+  ParallelFor(incomplete.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      Primitive& completed = posed.owned[first + i];
+      completed = Completed(*posed.drawables[incomplete[i].drawables[0]].geometry, incomplete[i].tex_coord);
+      for (const std::size_t drawable : incomplete[i].drawables) posed.drawables[drawable].geometry = &completed;
+    }
+  });
   return posed;
 }
 

@@ -42,6 +42,12 @@ struct PosedLight {
   glm::dvec3 direction_world{0.0, 0.0, -1.0};  // unit: where it shines
 };
 
+// Geometry of the scene that has no tangents, though the material it is drawn with reads a normal map.
+struct IncompleteGeometry {
+  std::vector<std::size_t> drawables;  // that draw it, all with one material
+  int tex_coord = 0;                   // the UV set of the normal map
+};
+
 struct PosedCamera {
   int camera = -1;  // index into Scene::cameras
   glm::dmat4 world_from_camera{1.0};
@@ -57,6 +63,7 @@ struct PosedScene {
   std::vector<PosedCamera> cameras;
   Bounds bounds;  // of all vertices of all drawables
   std::deque<Primitive> owned;  // deformed or completed copies
+  std::vector<IncompleteGeometry> incomplete;  // none by Pose()
   bool skinned = false, morphed = false;  // some geometry is
 };
 
@@ -64,6 +71,14 @@ struct PosedScene {
 // where it pays. Throws Error(InvalidUsage) for an index out of range, Error(InvalidInput) for scenes that break
 // their rules.
 PosedScene Pose(const Scene& scene, const PoseSettings& settings);
+
+// As Pose(), but geometry that is not deformed is the scene's own, and `incomplete` says where it lacks what Pose()
+// promises. All but shading can do without.
+PosedScene PoseIncomplete(const Scene& scene, const PoseSettings& settings);
+
+// What Pose() draws in place of incomplete geometry: the same triangles in the same order, with normals and tangents.
+// Thread-safe.
+Primitive Completed(const Primitive& geometry, int tex_coord);
 
 // The bounds only, without keeping deformed geometry (for `facet info`).
 Bounds PosedBounds(const Scene& scene, const PoseSettings& settings);

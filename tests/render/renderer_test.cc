@@ -150,6 +150,72 @@ TEST(Renderer, DecodesOnceAndSaysEachTimeWhatFailed) {
   EXPECT_EQ(stats.images_decoded, 1u);
 }
 
+// Side by side: two balls with normal maps and without tangents, one of them without normals too, a third one that a
+// morph target deforms.
+Scene BumpyBalls() {
+  Scene scene;
+  Material bumpy;
+  bumpy.normal_texture = Ref(AddTexture(scene, Picture(8, 8, [](int x, int y) {
+                                          return glm::u8vec4(90 + 11 * x, 80 + 13 * y, 230, 255);
+                                        })));
+  for (int i = 0; i < 3; ++i) {
+    Primitive ball = Sphere(0.8f, 9, 12);
+    if (i == 1) ball.normals.clear();
+    if (i == 2) {
+      ball.targets.emplace_back();
+      for (const glm::vec3& p : ball.positions) ball.targets[0].positions.push_back(0.2f * p);
+    }
+    Transform place;
+    place.translation = {10.0 * i, 0, 0};
+    const int node = Add(scene, std::move(ball), AddMaterial(scene, bumpy), place);
+    if (i == 2) scene.meshes[std::size_t(scene.nodes[std::size_t(node)].mesh)].weights = {0.5f};
+  }
+  return scene;
+}
+
+// Tangents are made when something visible needs them, and kept.
+TEST(Renderer, CompletesGeometryThatIsSeen) {
+  const Scene scene = BumpyBalls();
+  const auto settings_at = [](double x, double half) {
+    RenderSettings settings = Settings(24, 24, 2, Orthographic(half, {x, 0, 10}));
+    settings.environment.kind = EnvironmentSettings::Kind::Studio;
+    return settings;
+  };
+  Renderer renderer(scene);
+  std::uint64_t bytes = 0;
+  const auto expect_equal = [&](const RenderSettings& settings, const char* what) {
+    Film film;
+    RenderStats stats;
+    renderer.Render(settings, film, &stats);
+    EXPECT_TRUE(SameBytes(film, Render(scene, settings))) << what;
+    RenderSettings smooth = settings;
+    smooth.without = {Feature::NormalTexture};
+    EXPECT_EQ(SameBytes(film, Render(scene, smooth)), stats.covered_pixels == 0) << what;
+    return std::exchange(bytes, stats.pose_bytes);
+  };
+  expect_equal(settings_at(-10, 1), "nothing");
+  const std::uint64_t deformed = bytes;
+  EXPECT_GT(deformed, 0u);
+  expect_equal(settings_at(20, 1), "the deformed one");
+  EXPECT_EQ(bytes, deformed);
+  expect_equal(settings_at(0, 1), "the first");
+  const std::uint64_t first = bytes - deformed;
+  EXPECT_GT(first, 0u);
+  expect_equal(settings_at(10, 1), "the second");
+  const std::uint64_t second = bytes - deformed - first;
+  EXPECT_GT(second, first) << "of flat triangles, which share no vertices";
+  EXPECT_EQ(expect_equal(settings_at(10, 12), "all"), bytes);
+  EXPECT_EQ(expect_equal(settings_at(0, 1), "the first again"), bytes);
+  RenderSettings given_up = settings_at(0, 1);
+  given_up.tangents = TangentSource::Generated;
+  expect_equal(given_up, "another pose");
+  EXPECT_EQ(bytes, deformed + first) << "what was made for another pose is gone";
+  RenderSettings everything = settings_at(-10, 1);
+  everything.omit_unused = false;
+  expect_equal(everything, "everything");
+  EXPECT_EQ(bytes, deformed + first + second);
+}
+
 Digest HashWithTiles(const Scene& scene, RenderSettings settings, int tile_size) {
   settings.tile_size = tile_size;
   return HashFilm(Render(scene, settings));

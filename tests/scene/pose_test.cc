@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "facet/error.h"
+#include "scene/topology.h"
 #include "scene_helpers.h"
 
 namespace facet {
@@ -124,6 +125,54 @@ TEST(Pose, VariantsChooseMaterials) {
   EXPECT_EQ(Pose(scene, {}).drawables[0].material, 0);
   EXPECT_EQ(Pose(scene, {.variant = 0}).drawables[0].material, 1);
   EXPECT_EQ(Pose(scene, {.variant = 1}).drawables[0].material, 0) << "left alone by this variant";
+}
+
+// Without what only shading reads, the scene's own geometry is drawn, and completed it is what Pose() draws.
+TEST(Pose, LeavesCompletionToOthers) {
+  Primitive strip;
+  strip.topology = Topology::TriangleStrip;
+  strip.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 1}, {0, 2, 0}};
+  strip.tex_coords = {{}, {{0, 0}, {1, 0}, {0, 1}, {0.5f, 1}, {0, 0.3f}}};
+  strip.material = 0;
+  Scene scene = SceneOf(strip);
+  AddNormalMap(scene);
+  scene.materials[0].normal_texture.tex_coord = 1;
+  Primitive morphed = strip, plain = strip;
+  morphed.targets.resize(1);
+  morphed.targets[0].positions.assign(5, {0, 0, 2});
+  plain.material = -1;
+  scene.meshes[0].primitives.push_back(morphed);
+  scene.meshes[0].primitives.push_back(plain);
+  scene.meshes[0].weights = {0.5f};
+  scene.nodes.push_back(scene.nodes[0]);
+
+  const PosedScene posed = PoseIncomplete(scene, {}), whole = Pose(scene, {});
+  ASSERT_EQ(posed.drawables.size(), 6u);
+  ASSERT_EQ(posed.incomplete.size(), 1u) << "not what is deformed, nor what has no normal map";
+  EXPECT_EQ(posed.incomplete[0].drawables, (std::vector<std::size_t>{0, 3}));
+  EXPECT_EQ(posed.incomplete[0].tex_coord, 1);
+  EXPECT_EQ(posed.drawables[0].geometry, &scene.meshes[0].primitives[0]);
+  EXPECT_EQ(posed.drawables[3].geometry, &scene.meshes[0].primitives[0]);
+  EXPECT_EQ(posed.drawables[1].geometry->tangents, whole.drawables[1].geometry->tangents);
+  EXPECT_EQ(posed.drawables[1].geometry->positions[0].z, 1.0f);
+  EXPECT_FALSE(posed.drawables[1].geometry->tangents.empty());
+  EXPECT_EQ(posed.bounds.high, whole.bounds.high);
+
+  EXPECT_TRUE(whole.incomplete.empty());
+  EXPECT_EQ(whole.drawables[0].geometry, whole.drawables[3].geometry) << "made once";
+  const Primitive& expected = *whole.drawables[0].geometry;
+  const Primitive completed = Completed(strip, 1);
+  EXPECT_EQ(completed.tangents, expected.tangents);
+  EXPECT_EQ(completed.normals, expected.normals);
+  EXPECT_EQ(completed.indices, expected.indices);
+  // Triangle by triangle the same positions: what was cut and binned before names the same triangles after.
+  ASSERT_EQ(PrimitiveCount(completed), PrimitiveCount(strip));
+  for (std::uint32_t t = 0; t < PrimitiveCount(strip); ++t) {
+    const auto before = PrimitiveVertices(strip, t), after = PrimitiveVertices(completed, t);
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_EQ(completed.positions[after[k]], strip.positions[before[k]]) << t << " " << k;
+    }
+  }
 }
 
 TEST(Pose, AnimatesNodes) {
