@@ -10,6 +10,7 @@
 #include "facet/load.h"
 #include "facet/render.h"
 #include "render/hand_built.h"
+#include "scene/pose.h"
 
 namespace facet {
 namespace {
@@ -181,6 +182,11 @@ TEST(Renderer, CompletesGeometryThatIsSeen) {
     settings.environment.kind = EnvironmentSettings::Kind::Studio;
     return settings;
   };
+  Scene complete = scene;
+  for (std::size_t m = 0; m < 2; ++m) {
+    complete.meshes[m].primitives[0] = Completed(scene.meshes[m].primitives[0], 0);
+    EXPECT_FALSE(complete.meshes[m].primitives[0].tangents.empty());
+  }
   Renderer renderer(scene);
   std::uint64_t bytes = 0;
   const auto expect_equal = [&](const RenderSettings& settings, const char* what) {
@@ -188,6 +194,7 @@ TEST(Renderer, CompletesGeometryThatIsSeen) {
     RenderStats stats;
     renderer.Render(settings, film, &stats);
     EXPECT_TRUE(SameBytes(film, Render(scene, settings))) << what;
+    EXPECT_TRUE(SameBytes(film, Render(complete, settings))) << what << ", tangents in the file";
     RenderSettings smooth = settings;
     smooth.without = {Feature::NormalTexture};
     EXPECT_EQ(SameBytes(film, Render(scene, smooth)), stats.covered_pixels == 0) << what;
