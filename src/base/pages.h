@@ -8,7 +8,7 @@
 namespace facet {
 
 // From here on memory comes from the system, not from the heap: it is zero, and taken when it is first touched.
-inline constexpr std::size_t kLargeArray = std::size_t{4} << 20;
+inline constexpr std::size_t kLargeArray = std::size_t{2} << 20;
 
 // Bytes in huge pages where Linux has them: the first touch of memory costs several times as much in small ones. Less
 // than kLargeArray is not zeroed. Throws std::bad_alloc.

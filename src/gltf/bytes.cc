@@ -10,6 +10,7 @@
 
 #include <sys/stat.h>
 
+#include "base/pages.h"
 #include "facet/error.h"
 
 #ifdef __linux__
@@ -38,8 +39,9 @@ Bytes Map([[maybe_unused]] std::FILE* file, [[maybe_unused]] std::size_t size) {
 }  // namespace
 
 MutableBytes AllocateBytes(std::size_t size) {
-  // make_shared_for_overwrite is missing in the standard libraries that we support.
-  return {std::shared_ptr<std::byte[]>(new std::byte[size ? size : 1]), size};
+  return {std::shared_ptr<std::byte[]>(static_cast<std::byte*>(AllocatePages(size)),
+                                       [size](std::byte* bytes) { FreePages(bytes, size); }),
+          size};
 }
 
 Bytes ReadFileStart(const std::filesystem::path& path, std::size_t most, std::uintmax_t* file_size) {

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <csetjmp>
+#include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
-#include <new>
-#include <utility>
 #include <vector>
 
 // jpeglib.h needs size_t and FILE to be known.
@@ -46,8 +46,10 @@ void OnMessage(j_common_ptr codec, int level) {
     case JWRN_HIT_MARKER:
     case JWRN_HUFF_BAD_CODE:
     case JWRN_MUST_RESYNC:
-    case JWRN_NOT_SEQUENTIAL: OnError(codec);
-    default: break;
+    case JWRN_NOT_SEQUENTIAL:
+      OnError(codec);
+    default:
+      break;
   }
 }
 
@@ -67,9 +69,39 @@ void OnProgress(j_common_ptr codec) {
   std::longjmp(state->jump, 1);
 }
 
+// The coefficients of whole pictures in several scans, an array for each component. libjpeg's own are in small pages,
+// whose first touch takes an eighth of the time of a progressive picture.
+struct Coefficients {
+  void* arrays[MAX_COMPONENTS];
+  int count;
+};
+
+// The array is its rows: libjpeg only hands it back.
+jvirt_barray_ptr RequestCoefficients(j_common_ptr codec, int pool, boolean, JDIMENSION row_blocks, JDIMENSION row_count,
+                                     JDIMENSION) {
+  constexpr std::uintptr_t kAlignment = 64;  // libjpeg asks for 32
+  auto* all = static_cast<Coefficients*>(codec->client_data);
+  auto* rows = static_cast<JBLOCKARRAY>(codec->mem->alloc_large(codec, pool, row_count * sizeof(JBLOCKROW)));
+  const std::size_t bytes = std::size_t(row_blocks) * row_count * sizeof(JBLOCK) + kAlignment;
+  // Zeros that take no memory until they are touched, which a broken file may never come to.
+  void* const memory = all->count < MAX_COMPONENTS ? std::calloc(bytes, 1) : nullptr;
+  if (memory == nullptr) ERREXIT1(codec, JERR_OUT_OF_MEMORY, 0);
+  all->arrays[all->count++] = memory;
+  PreferHugePages(memory, bytes);
+  const auto first = (reinterpret_cast<std::uintptr_t>(memory) + kAlignment - 1) / kAlignment * kAlignment;
+  for (JDIMENSION y = 0; y < row_count; ++y) rows[y] = reinterpret_cast<JBLOCKROW>(first) + std::size_t(y) * row_blocks;
+  return reinterpret_cast<jvirt_barray_ptr>(rows);
+}
+
+JBLOCKARRAY AccessCoefficients(j_common_ptr, jvirt_barray_ptr array, JDIMENSION first_row, JDIMENSION, boolean) {
+  return reinterpret_cast<JBLOCKARRAY>(array) + first_row;
+}
+
 bool Create(jpeg_decompress_struct* decoder, ErrorState* errors) {
   if (setjmp(errors->jump) != 0) return false;
   jpeg_create_decompress(decoder);
+  decoder->mem->request_virt_barray = RequestCoefficients;
+  decoder->mem->access_virt_barray = AccessCoefficients;
   return true;
 }
 
@@ -78,12 +110,19 @@ bool Start(jpeg_decompress_struct* decoder, ErrorState* errors, const unsigned c
   jpeg_mem_src(decoder, data, size);
   jpeg_read_header(decoder, TRUE);
   switch (decoder->jpeg_color_space) {
-    case JCS_GRAYSCALE: decoder->out_color_space = JCS_GRAYSCALE; break;
+    case JCS_GRAYSCALE:
+      decoder->out_color_space = JCS_GRAYSCALE;
+      break;
     case JCS_RGB:
-    case JCS_YCbCr: decoder->out_color_space = JCS_RGB; break;
+    case JCS_YCbCr:
+      decoder->out_color_space = JCS_RGB;
+      break;
     case JCS_CMYK:
-    case JCS_YCCK: decoder->out_color_space = JCS_CMYK; break;
-    default: ERREXIT(decoder, JERR_CONVERSION_NOTIMPL);
+    case JCS_YCCK:
+      decoder->out_color_space = JCS_CMYK;
+      break;
+    default:
+      ERREXIT(decoder, JERR_CONVERSION_NOTIMPL);
   }
   decoder->dct_method = JDCT_ISLOW;
   decoder->do_fancy_upsampling = TRUE;
@@ -103,59 +142,11 @@ bool ReadRows(jpeg_decompress_struct* decoder, ErrorState* errors, JSAMPROW* row
   return true;
 }
 
-// The coefficients of a large progressive picture, which libjpeg would take from the heap, in small pages, and zero
-// once more: a third of the time that it takes to decode it.
-struct CoefficientArray {
-  PageVector<JCOEF> numbers;  // JBLOCKs; as large as they are, their memory is zero
-  std::vector<JBLOCKROW> rows;
-};
-
-struct CoefficientMemory {
-  CoefficientArray arrays[MAX_COMPONENTS];
-  int count = 0;
-  decltype(jpeg_memory_mgr::request_virt_barray) request_other = nullptr;  // libjpeg's own
-  decltype(jpeg_memory_mgr::access_virt_barray) access_other = nullptr;
-
-  static CoefficientMemory& Of(j_common_ptr codec) { return *static_cast<CoefficientMemory*>(codec->client_data); }
-
-  // Null: there is no memory.
-  CoefficientArray* Add(std::size_t blocks_per_row, std::size_t rows) try {
-    CoefficientArray& array = arrays[count];
-    array.numbers.resize(rows * blocks_per_row * DCTSIZE2);
-    auto* const blocks = reinterpret_cast<JBLOCKROW>(array.numbers.data());
-    for (std::size_t y = 0; y < rows; ++y) array.rows.push_back(blocks + y * blocks_per_row);
-    ++count;
-    return &array;
-  } catch (const std::bad_alloc&) {
-    return nullptr;
-  }
-};
-
-jvirt_barray_ptr RequestCoefficients(j_common_ptr codec, int pool, boolean zeroed, JDIMENSION blocks_per_row,
-                                     JDIMENSION rows, JDIMENSION most_at_once) {
-  CoefficientMemory& memory = CoefficientMemory::Of(codec);
-  if (std::size_t(blocks_per_row) * rows * sizeof(JBLOCK) < kLargeArray || memory.count == MAX_COMPONENTS) {
-    return memory.request_other(codec, pool, zeroed, blocks_per_row, rows, most_at_once);
-  }
-  CoefficientArray* const array = memory.Add(blocks_per_row, rows);
-  if (array == nullptr) ERREXIT1(codec, JERR_OUT_OF_MEMORY, 0);
-  return reinterpret_cast<jvirt_barray_ptr>(array);  // nobody but AccessCoefficients looks into it
-}
-
-JBLOCKARRAY AccessCoefficients(j_common_ptr codec, jvirt_barray_ptr handle, JDIMENSION first, JDIMENSION count,
-                               boolean writable) {
-  CoefficientMemory& memory = CoefficientMemory::Of(codec);
-  for (CoefficientArray& array : memory.arrays) {
-    if (reinterpret_cast<jvirt_barray_ptr>(&array) == handle) return array.rows.data() + first;
-  }
-  return memory.access_other(codec, handle, first, count, writable);
-}
-
 struct Decoder {
   ErrorState errors{};
   jpeg_decompress_struct decoder{};
   ScanGuard guard{};
-  CoefficientMemory coefficients;
+  Coefficients coefficients{};
   Decoder() {
     decoder.err = jpeg_std_error(&errors.manager);
     errors.manager.error_exit = OnError;
@@ -165,10 +156,11 @@ struct Decoder {
     guard.manager.progress_monitor = OnProgress;
     decoder.progress = &guard.manager;
     decoder.client_data = &coefficients;
-    coefficients.request_other = std::exchange(decoder.mem->request_virt_barray, RequestCoefficients);
-    coefficients.access_other = std::exchange(decoder.mem->access_virt_barray, AccessCoefficients);
   }
-  ~Decoder() { jpeg_destroy_decompress(&decoder); }
+  ~Decoder() {
+    jpeg_destroy_decompress(&decoder);
+    for (int i = 0; i < coefficients.count; ++i) std::free(coefficients.arrays[i]);
+  }
   Decoder(const Decoder&) = delete;
   Decoder& operator=(const Decoder&) = delete;
 };
