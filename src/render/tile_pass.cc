@@ -188,21 +188,26 @@ class TileWorker final : public RecordTable {
       ShadeBatch(in_.plan.materials[MaterialOf(fragments.list.record[0])].frame, fragments, /*alpha_only=*/false);
       return;
     }
-    by_material_.resize(n);
+    by_material_.clear();
     std::int32_t last_number = kNoRecord;
-    std::uint32_t last_material = 0;
-    for (std::size_t i = 0; i < n; ++i) {
-      if (fragments.list.record[i] != last_number) {
-        last_number = fragments.list.record[i];
-        last_material = MaterialOf(last_number);
+    for (std::uint32_t i = 0; i < n; ++i) {
+      const std::int32_t number = fragments.list.record[i];
+      if (number != last_number) {
+        last_number = number;
+        const std::uint32_t material = MaterialOf(number);
+        if (by_material_.empty() || by_material_.back().material != material) by_material_.push_back({material, i, i});
       }
-      by_material_[i] = {last_material, static_cast<std::uint32_t>(i)};
+      by_material_.back().end = i + 1;
     }
-    std::sort(by_material_.begin(), by_material_.end());
-    for (std::size_t i = 0; i < n;) {
-      const std::uint32_t material = by_material_[i].first;
+    std::sort(by_material_.begin(), by_material_.end(), [](const MaterialRun& a, const MaterialRun& b) {
+      return a.material != b.material ? a.material < b.material : a.begin < b.begin;
+    });
+    for (auto run = by_material_.begin(); run != by_material_.end();) {
+      const std::uint32_t material = run->material;
       batch_.clear();
-      for (; i < n && by_material_[i].first == material; ++i) batch_.push_back(by_material_[i].second);
+      for (; run != by_material_.end() && run->material == material; ++run) {
+        for (std::uint32_t i = run->begin; i < run->end; ++i) batch_.push_back(i);
+      }
       ShadeBatch(in_.plan.materials[material].frame, fragments, /*alpha_only=*/false);
     }
   }
@@ -275,7 +280,9 @@ class TileWorker final : public RecordTable {
       }
       setup_of[i] = last_setup;
     }
-    SetUpTriangles(material, anchor_x, anchor_y);
+    setups_.resize(std::max(setups_.size(), set_up_.size() * SetupLayout::kStride));
+    SetUpTriangles({&in_.view, in_.geometry.drawables.data(), &material, anchor_x, anchor_y, set_up_.data(),
+                    set_up_.size(), setups_.data()});
     const std::uint16_t* pixels = list.pixel.data();
     const std::uint8_t* samples = list.samples.data();
     float *x = x_.data(), *y = y_.data();
@@ -327,31 +334,9 @@ class TileWorker final : public RecordTable {
     SetupOfRecord& known = setup_of_record_[std::size_t(number)];
     if (known.batch != batch_number_) {
       known = {batch_number_, static_cast<std::int32_t>(set_up_.size())};
-      set_up_.push_back(number);
+      set_up_.push_back(records_[std::size_t(number)]);
     }
     return known.setup;
-  }
-
-  // Those that SetupFor() has counted.
-  void SetUpTriangles(const FrameMaterial& material, int anchor_x, int anchor_y) {
-    constexpr std::size_t kAhead = 8;  // triangles
-    const std::size_t n = set_up_.size();
-    setups_.resize(std::max(setups_.size(), n * SetupLayout::kStride));
-    const auto drawable_of = [&](const TriangleRecord& r) -> const FrameDrawable& {
-      return in_.geometry.drawables[r.drawable];
-    };
-    const auto ahead = [&](std::size_t i, auto prefetch) {
-      if (i >= n) return;
-      const TriangleRecord& record = Record(set_up_[i]);
-      prefetch(drawable_of(record), record);
-    };
-    for (std::size_t i = 0; i < n; ++i) {
-      ahead(i + 2 * kAhead, PrefetchIndices);
-      ahead(i + kAhead, PrefetchVertices);
-      const TriangleRecord& record = Record(set_up_[i]);
-      SetUpTriangle(in_.view, drawable_of(record), material, record, anchor_x, anchor_y,
-                    setups_.data() + i * SetupLayout::kStride);
-    }
   }
 
   // The environment, where pixels are not wholly covered.
@@ -370,6 +355,11 @@ class TileWorker final : public RecordTable {
     }
   }
 
+  // Fragments [begin, end) of a list, which have one material: neighbours mostly do.
+  struct MaterialRun {
+    std::uint32_t material, begin, end;
+  };
+
   struct SetupOfRecord {
     std::uint64_t batch;  // in which it was made
     std::int32_t setup;
@@ -384,13 +374,13 @@ class TileWorker final : public RecordTable {
   Compositor compositor_;
   std::vector<const TriangleRecord*> records_;
   std::vector<std::int32_t> numbers_;
-  int material_ = -1;                                                 // of the record that came last
-  bool one_material_ = true;                                          // all records have it
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> by_material_;  // material, fragment
+  int material_ = -1;         // of the record that came last
+  bool one_material_ = true;  // all records have it
+  std::vector<MaterialRun> by_material_;
   std::vector<std::uint32_t> batch_;
   std::vector<SetupOfRecord> setup_of_record_;
   std::uint64_t batch_number_ = 0;
-  std::vector<std::int32_t> set_up_;  // numbers of the records that have a setup in this batch, in its order
+  std::vector<const TriangleRecord*> set_up_;  // the records that have a setup in this batch, in its order
   std::vector<float> setups_;
   std::vector<std::int32_t> setup_of_;
   std::vector<float> x_, y_, red_, green_, blue_, alpha_;

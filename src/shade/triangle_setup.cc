@@ -1,100 +1,221 @@
 #include "shade/triangle_setup.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "shade/triangle_setup.cc"
+#include "hwy/foreach_target.h"
+// Must come after foreach_target.h.
+#include "facet/shader/dispatch.h"
+#include "facet/shader/vec-inl.h"
 #include "scene/topology.h"
 
+HWY_BEFORE_NAMESPACE();
 namespace facet {
-namespace {
+namespace HWY_NAMESPACE {
+
+// --- A double for each of several triangles ----------------------------------------------------------------------------
+
+using DoubleTag = hn::ScalableTag<double>;
+using HalfTag = hn::Rebind<float, DoubleTag>;
+inline constexpr std::size_t kMaxDoubles = kMaxLanes < 2 ? 1 : kMaxLanes / 2;
+
+struct Double {
+  using Raw = hn::Vec<DoubleTag>;
+  Raw raw;
+  Double() = default;
+  HWY_INLINE Double(Raw r) : raw(r) {}                          // NOLINT: as Float
+  HWY_INLINE Double(double d) : raw(hn::Set(DoubleTag(), d)) {}  // NOLINT
+};
+struct DoubleMask {
+  hn::Mask<DoubleTag> raw;
+};
+template <>
+struct LaneTraits<Double> {
+  using MaskType = DoubleMask;
+};
+
+HWY_INLINE Double operator+(Double a, Double b) { return hn::Add(a.raw, b.raw); }
+HWY_INLINE Double operator-(Double a, Double b) { return hn::Sub(a.raw, b.raw); }
+HWY_INLINE Double operator*(Double a, Double b) { return hn::Mul(a.raw, b.raw); }
+HWY_INLINE Double operator/(Double a, Double b) { return hn::Div(a.raw, b.raw); }
+HWY_INLINE Double operator-(Double a) { return hn::Neg(a.raw); }
+HWY_INLINE DoubleMask operator<(Double a, Double b) { return {hn::Lt(a.raw, b.raw)}; }
+HWY_INLINE DoubleMask operator==(Double a, Double b) { return {hn::Eq(a.raw, b.raw)}; }
+HWY_INLINE DoubleMask operator!(DoubleMask a) { return {hn::Not(a.raw)}; }
+HWY_INLINE DoubleMask operator&(DoubleMask a, DoubleMask b) { return {hn::And(a.raw, b.raw)}; }
+HWY_INLINE bool All(DoubleMask a) { return hn::AllTrue(DoubleTag(), a.raw); }
+HWY_INLINE Double Abs(Double a) { return hn::Abs(a.raw); }
+HWY_INLINE Double Sqrt(Double a) { return hn::Sqrt(a.raw); }
+HWY_INLINE Double Select(DoubleMask m, Double a, Double b) { return hn::IfThenElse(m.raw, a.raw, b.raw); }
+HWY_INLINE Double Max(Double a, Double b) { return Select(a < b, b, a); }  // a NaN in b gives a
+HWY_INLINE Double Load(const double* p) { return hn::LoadU(DoubleTag(), p); }
+HWY_INLINE Double LoadPromoted(const float* p) { return hn::PromoteTo(DoubleTag(), hn::LoadU(HalfTag(), p)); }
+HWY_INLINE void StoreRounded(Double a, float* p) {
+#if HWY_TARGET == HWY_SCALAR  // Highway's gives the largest float for what is larger
+  *p = static_cast<float>(hn::GetLane(a.raw));
+#else
+  hn::StoreU(hn::DemoteTo(HalfTag(), a.raw), HalfTag(), p);
+#endif
+}
+
+using Point = Vec3<Double>;
+
+// --- What a group's triangles read and get -----------------------------------------------------------------------------
+
+// A number of each triangle of a group.
+using Numbers = float[kMaxDoubles];
+
+// Three numbers of each corner.
+struct Corners {
+  alignas(64) Numbers numbers[9];
+  HWY_INLINE void Set(std::size_t lane, int corner, const float* xyz) {
+    for (int c = 0; c < 3; ++c) numbers[3 * corner + c][lane] = xyz[c];
+  }
+  HWY_INLINE Point Get(int corner) const {
+    const Numbers* n = numbers + 3 * corner;
+    return {LoadPromoted(n[0]), LoadPromoted(n[1]), LoadPromoted(n[2])};
+  }
+};
+
+// The numbers of a setup up to the tangents.
+struct SetupLanes {
+  static constexpr int kCount = (SetupLayout::kColors + 3) / 4 * 4;
+  alignas(64) Numbers numbers[kCount] = {};
+
+  HWY_INLINE void Put(int place, Double value) { StoreRounded(value, numbers[place]); }
+  HWY_INLINE void Put(int place, const Point& p) { Put(place, p.x), Put(place + 1, p.y), Put(place + 2, p.z); }
+
+  // Moves the first `count` numbers of `lanes` triangles to their places, by fours: some beyond may come along.
+  HWY_INLINE void WriteTo(float* setups, std::size_t lanes, int count) const {
+    alignas(64) float fours[4 * kMaxDoubles];
+    const HalfTag half;
+    for (int i = 0; i < count; i += 4) {
+      hn::StoreInterleaved4(hn::LoadU(half, numbers[i]), hn::LoadU(half, numbers[i + 1]),
+                            hn::LoadU(half, numbers[i + 2]), hn::LoadU(half, numbers[i + 3]), half, fours);
+      for (std::size_t k = 0; k < lanes; ++k) std::memcpy(setups + k * SetupLayout::kStride + i, fours + 4 * k, 16);
+    }
+  }
+};
+
+// --- The arithmetic ----------------------------------------------------------------------------------------------------
+
+HWY_INLINE Double HomogeneousRow(const glm::dvec4& row, const Point& p) {
+  return (Double(row.x) * p.x + Double(row.y) * p.y) + (Double(row.z) * p.z + Double(row.w));
+}
+
+// `w`: 1 for places, 0 for directions.
+HWY_INLINE Point Transform(const glm::dmat3x4& rows, const Point& p, double w) {
+  const auto row = [&](int i) HWY_ATTR {
+    const glm::dvec4& r = rows[i];
+    return p.x * Double(r.x) + p.y * Double(r.y) + p.z * Double(r.z) + Double(w * r.w);
+  };
+  return {row(0), row(1), row(2)};
+}
+
+HWY_INLINE Point Transform(const glm::dmat3& m, const Point& p) {
+  const auto row = [&](int i) HWY_ATTR {
+    return Double(m[0][i]) * p.x + Double(m[1][i]) * p.y + Double(m[2][i]) * p.z;
+  };
+  return {row(0), row(1), row(2)};
+}
+
+// v / |v|, or what `fallback` gives; it is asked only where it is needed.
+template <class Fallback>
+HWY_INLINE Point UnitOr(const Point& v, const Fallback& fallback) {
+  const Double length = Sqrt(Dot(v, v));
+  const DoubleMask good = (Double(0.0) < length) & (length < Double(HUGE_VAL));
+  const Point unit = v / length;
+  return All(good) ? unit : Select(good, unit, fallback());
+}
 
 // Rows of the inverse of the matrix with columns h[0], h[1], h[2], times any positive number (weights are divided by
 // their sum). A degenerate triangle takes everything from its first vertex.
-void WritePlanes(const glm::dvec3 (&h)[3], RecordKind kind, float* planes) {
-  glm::dvec3 row[3] = {glm::cross(h[1], h[2]), glm::cross(h[2], h[0]), glm::cross(h[0], h[1])};
-  const double determinant = glm::dot(row[0], h[0]);
-  double largest = 0.0;
-  for (glm::dvec3& r : row) {
-    r *= determinant < 0.0 ? -1.0 : 1.0;
+HWY_INLINE void PutPlanes(const Point (&h)[3], RecordKind kind, SetupLanes& out) {
+  Point row[3] = {Cross(h[1], h[2]), Cross(h[2], h[0]), Cross(h[0], h[1])};
+  const Double determinant = Dot(row[0], h[0]), zero(0.0);
+  const Double sign = Select(determinant < zero, Double(-1.0), Double(1.0));
+  Double largest = zero;
+  for (Point& r : row) {
+    r = r * sign;
     // Weights within a tile's reach decide the scale.
-    largest = std::max({largest, std::fabs(r.x) * 64.0, std::fabs(r.y) * 64.0, std::fabs(r.z)});
+    const Double reach(64.0);
+    largest = Max(Max(Max(largest, Abs(r.x) * reach), Abs(r.y) * reach), Abs(r.z));
   }
-  if (kind == RecordKind::Line) row[2] = glm::dvec3(0.0);  // the third vertex stands for the line's width
-  if (!(largest > 0.0) || !std::isfinite(largest) || kind == RecordKind::Point || determinant == 0.0) {
-    std::fill(planes, planes + 9, 0.0f);
-    planes[2] = 1.0f;
-    return;
-  }
+  if (kind == RecordKind::Line) row[2] = {zero, zero, zero};  // the third vertex stands for the line's width
+  const DoubleMask good = (zero < largest) & (largest < Double(HUGE_VAL)) & !(determinant == zero);
   for (int i = 0; i < 3; ++i) {
-    for (int c = 0; c < 3; ++c) planes[3 * i + c] = static_cast<float>(row[i][c] / largest);
+    const Point plane = row[i] / largest;
+    const Point degenerate = {zero, zero, Double(i == 0 ? 1.0 : 0.0)};
+    out.Put(SetupLayout::kPlanes + 3 * i, kind == RecordKind::Point ? degenerate : Select(good, plane, degenerate));
   }
 }
 
-void Write(float* out, const glm::dvec3& v) {
-  out[0] = static_cast<float>(v.x), out[1] = static_cast<float>(v.y), out[2] = static_cast<float>(v.z);
-}
+// --- Groups ------------------------------------------------------------------------------------------------------------
 
-glm::dvec3 UnitOr(const glm::dvec3& v, const glm::dvec3& fallback) {
-  const double length = glm::length(v);
-  return length > 0.0 && std::isfinite(length) ? v / length : fallback;
-}
+// The triangles of one drawable and kind that are set up side by side. Lanes that have none keep old numbers, and what
+// becomes of those is not read.
+struct Group {
+  const FrameDrawable* drawable;
+  RecordKind kind;
+  Corners positions, normals, tangents;
+  alignas(64) double sides[kMaxDoubles];  // -1 for those seen from behind
+};
 
-}  // namespace
+using Vertices = std::array<std::uint32_t, 3>;
 
-void PrefetchIndices(const FrameDrawable& drawable, const TriangleRecord& record) {
-  const auto& indices = drawable.geometry->indices;
-  const std::size_t first = std::size_t(record.primitive) * 3;  // of a strip it is elsewhere: no harm
-  if (first + 2 < indices.size()) __builtin_prefetch(&indices[first]);
-}
-
-void PrefetchVertices(const FrameDrawable& drawable, const TriangleRecord& record) {
-  const Primitive& geometry = *drawable.geometry;
-  for (const std::size_t v : PrimitiveVertices(geometry, record.primitive)) {
-    __builtin_prefetch(&geometry.positions[v]);
-    if (!geometry.normals.empty()) __builtin_prefetch(&geometry.normals[v]);
-  }
-}
-
-void SetUpTriangle(const FrameView& view, const FrameDrawable& drawable, const FrameMaterial& material,
-                   const TriangleRecord& record, int anchor_x, int anchor_y, float* setup) {
-  const Primitive& geometry = *drawable.geometry;
-  const auto vertex = PrimitiveVertices(geometry, record.primitive);
-  glm::dvec3 h[3], position[3];
+void SetUpGroup(const SetupTask& task, const Group& group, SetupLanes& out) {
+  const FrameView& view = *task.view;
+  const FrameDrawable& drawable = *group.drawable;
+  Point h[3];
   for (int i = 0; i < 3; ++i) {
-    const glm::dvec4 p(glm::dvec3(geometry.positions[vertex[std::size_t(i)]]), 1.0);
-    const double w = view.perspective ? glm::dot(drawable.screen_from_mesh[2], p) : 1.0;
-    h[i] = {glm::dot(drawable.screen_from_mesh[0], p) - anchor_x * w,
-            glm::dot(drawable.screen_from_mesh[1], p) - anchor_y * w, w};
-    position[i] = p * drawable.eye_relative_from_mesh;
-    Write(setup + SetupLayout::kPositions + 3 * i, position[i]);
+    const Point p = group.positions.Get(i);
+    const Double w = view.perspective ? HomogeneousRow(drawable.screen_from_mesh[2], p) : Double(1.0);
+    h[i] = {HomogeneousRow(drawable.screen_from_mesh[0], p) - Double(task.anchor_x) * w,
+            HomogeneousRow(drawable.screen_from_mesh[1], p) - Double(task.anchor_y) * w, w};
   }
-  if (record.kind == RecordKind::Line) {
-    const glm::dvec3 line = glm::cross(h[0], h[1]);  // its first two numbers point across the line on the screen
-    h[2] = glm::dvec3(line.x, line.y, 0.0);
+  if (group.kind == RecordKind::Line) {
+    const Point line = Cross(h[0], h[1]);  // its first two numbers point across the line on the screen
+    h[2] = {line.x, line.y, Double(0.0)};
   }
-  WritePlanes(h, record.kind, setup + SetupLayout::kPlanes);
+  PutPlanes(h, group.kind, out);
 
-  const double side = record.back_facing ? -1.0 : 1.0;
-  if (material.Has(kLit)) {
-    const glm::dvec3 toward_eye = UnitOr(-position[0], {0.0, 0.0, 1.0});
-    const glm::dvec3 flat = UnitOr(glm::cross(position[1] - position[0], position[2] - position[0]) *
-                                       (drawable.mirrored ? -side : side), toward_eye);
+  const Double side = Load(group.sides), mirrored_side = drawable.mirrored ? -side : side;
+  if (task.material->Has(kLit)) {
+    Point position[3];
     for (int i = 0; i < 3; ++i) {
-      const glm::dvec3 normal =
-          geometry.normals.empty()
-              ? flat
-              : UnitOr(drawable.normal_from_mesh * glm::dvec3(geometry.normals[vertex[std::size_t(i)]]) * side, flat);
-      Write(setup + SetupLayout::kNormals + 3 * i, normal);
+      position[i] = Transform(drawable.eye_relative_from_mesh, group.positions.Get(i), 1.0);
+      out.Put(SetupLayout::kPositions + 3 * i, position[i]);
+    }
+    const auto toward_eye = [&]() HWY_ATTR {
+      return UnitOr(-position[0], []() HWY_ATTR { return Point{Double(0.0), Double(0.0), Double(1.0)}; });
+    };
+    const auto flat = [&]() HWY_ATTR {
+      return UnitOr(Cross(position[1] - position[0], position[2] - position[0]) * mirrored_side, toward_eye);
+    };
+    const bool given = !drawable.geometry->normals.empty();
+    for (int i = 0; i < 3; ++i) {
+      const Point normal =
+          given ? UnitOr(Transform(drawable.normal_from_mesh, group.normals.Get(i)) * side, flat) : flat();
+      out.Put(SetupLayout::kNormals + 3 * i, normal);
     }
   }
-  if (material.Has(kNormalTexture)) {
+  if (task.material->Has(kNormalTexture)) {
     for (int i = 0; i < 3; ++i) {
-      const glm::vec4 t = geometry.tangents.empty() ? glm::vec4(1, 0, 0, 1) : geometry.tangents[vertex[std::size_t(i)]];
-      float* out = setup + SetupLayout::kTangents + 4 * i;
-      const glm::dvec3 turned = glm::dvec4(glm::dvec3(t), 0.0) * drawable.eye_relative_from_mesh;
-      Write(out, UnitOr(turned, {1.0, 0.0, 0.0}) * side);
-      out[3] = t.w * static_cast<float>(drawable.mirrored ? -side : side);
+      const Point turned = Transform(drawable.eye_relative_from_mesh, group.tangents.Get(i), 0.0);
+      const Point x_axis{Double(1.0), Double(0.0), Double(0.0)};
+      out.Put(SetupLayout::kTangents + 4 * i, UnitOr(turned, [&]() HWY_ATTR { return x_axis; }) * side);
+      out.Put(SetupLayout::kTangents + 4 * i + 3, mirrored_side);  // times the handedness, which is the triangle's
     }
+  }
+}
+
+// What is only copied.
+void CopyAttributes(const FrameMaterial& material, const Primitive& geometry, const Vertices& vertex, float* setup) {
+  if (material.Has(kNormalTexture) && !geometry.tangents.empty()) {
+    for (int i = 0; i < 3; ++i) setup[SetupLayout::kTangents + 4 * i + 3] *= geometry.tangents[vertex[std::size_t(i)]].w;
   }
   if (material.vertex_colors) {
     for (int i = 0; i < 3; ++i) {
@@ -113,4 +234,77 @@ void SetUpTriangle(const FrameView& view, const FrameDrawable& drawable, const F
   }
 }
 
+void SetUpTrianglesKernel(const SetupTask& task) {
+  // Memory is asked for ahead: first the indices, then, once they are there, the vertices. A frame of small triangles
+  // waits for little else.
+  constexpr std::size_t kAhead = 16;  // triangles: twice the most lanes
+  static_assert(kAhead >= 2 * kMaxDoubles);
+  const FrameMaterial& material = *task.material;
+  const bool lit = material.Has(kLit), normal_texture = material.Has(kNormalTexture);
+  const int count = normal_texture ? SetupLayout::kColors : lit ? SetupLayout::kTangents : SetupLayout::kPositions;
+  Vertices vertices[2 * kAhead];  // of triangle i at i % (2 * kAhead)
+  const auto place = [](std::size_t i) { return i % (2 * kAhead); };
+  const auto ask_for_indices = [&](std::size_t i) HWY_ATTR {
+    if (i >= task.count) return;
+    const auto& indices = task.drawables[task.records[i]->drawable].geometry->indices;
+    const std::size_t first = std::size_t(task.records[i]->primitive) * 3;  // of a strip it is elsewhere: no harm
+    if (first + 2 < indices.size()) __builtin_prefetch(&indices[first]);
+  };
+  const auto ask_for_vertices = [&](std::size_t i) HWY_ATTR {
+    if (i >= task.count) return;
+    const Primitive& geometry = *task.drawables[task.records[i]->drawable].geometry;
+    vertices[place(i)] = PrimitiveVertices(geometry, task.records[i]->primitive);
+    for (const std::uint32_t v : vertices[place(i)]) {
+      __builtin_prefetch(&geometry.positions[v]);
+      if (lit && !geometry.normals.empty()) __builtin_prefetch(&geometry.normals[v]);
+    }
+  };
+  for (std::size_t i = 0; i < 2 * kAhead; ++i) ask_for_indices(i);
+  for (std::size_t i = 0; i < kAhead; ++i) ask_for_vertices(i);
+
+  Group group{};
+  SetupLanes out;
+  for (std::size_t i = 0; i < task.count;) {
+    group.drawable = task.drawables + task.records[i]->drawable;
+    group.kind = task.records[i]->kind;
+    const Primitive& geometry = *group.drawable->geometry;
+    const std::size_t most = std::min(hn::Lanes(DoubleTag()), task.count - i);
+    std::size_t n = 0;
+    for (; n < most; ++n) {
+      const TriangleRecord& record = *task.records[i + n];
+      if (task.drawables + record.drawable != group.drawable || record.kind != group.kind) break;
+      const Vertices& vertex = vertices[place(i + n)];
+      for (int k = 0; k < 3; ++k) {
+        const std::size_t v = vertex[std::size_t(k)];
+        group.positions.Set(n, k, &geometry.positions[v].x);
+        if (lit && !geometry.normals.empty()) group.normals.Set(n, k, &geometry.normals[v].x);
+        if (!normal_texture) continue;
+        const glm::vec4 none(1, 0, 0, 1);
+        group.tangents.Set(n, k, geometry.tangents.empty() ? &none.x : &geometry.tangents[v].x);
+      }
+      group.sides[n] = record.back_facing ? -1.0 : 1.0;
+    }
+    SetUpGroup(task, group, out);
+    float* setups = task.setups + i * SetupLayout::kStride;
+    out.WriteTo(setups, n, count);
+    for (std::size_t k = 0; k < n; ++k) {
+      CopyAttributes(material, geometry, vertices[place(i + k)], setups + k * SetupLayout::kStride);
+    }
+    for (std::size_t k = i; k < i + n; ++k) ask_for_vertices(k + kAhead), ask_for_indices(k + 2 * kAhead);
+    i += n;
+  }
+}
+
+}  // namespace HWY_NAMESPACE
 }  // namespace facet
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace facet {
+
+FACET_EXPORT(SetUpTrianglesKernel);
+
+void SetUpTriangles(const SetupTask& task) { FACET_DISPATCH(SetUpTrianglesKernel)(task); }
+
+}  // namespace facet
+#endif

@@ -22,18 +22,22 @@ struct SetupLayout {
 };
 static_assert(SetupLayout::kStride % 4 == 0);
 
-// Fills setup[0, kStride) for the primitive of `record`; of the attributes only those that `material` reads.
-// `anchor_x`, `anchor_y`: pixels.
+// Triangles, lines or points of one material, to be set up for the fragments of a tile.
+struct SetupTask {
+  const FrameView* view = nullptr;
+  const FrameDrawable* drawables = nullptr;  // by TriangleRecord::drawable
+  const FrameMaterial* material = nullptr;
+  int anchor_x = 0, anchor_y = 0;            // pixels
+  const TriangleRecord* const* records = nullptr;
+  std::size_t count = 0;
+  float* setups = nullptr;                   // out: SetupLayout::kStride numbers each, in the order of the records
+};
+
+// Sets of the attributes only those that the material reads. What it gives a primitive does not depend on its neighbours.
 //
 // The weights are the inverse of the matrix of the vertices in homogeneous screen space (Olano and Greer 1997,
 // "Triangle Scan Conversion using 2D Homogeneous Coordinates"), so they need no clipping, and they are computed in
 // double from the file's positions, so they do not suffer from snapping.
-void SetUpTriangle(const FrameView& view, const FrameDrawable& drawable, const FrameMaterial& material,
-                   const TriangleRecord& record, int anchor_x, int anchor_y, float* setup);
-
-// Ask for memory that SetUpTriangle will read: first the indices, then, once they are there, the vertices. A frame of
-// small triangles waits for little else.
-void PrefetchIndices(const FrameDrawable& drawable, const TriangleRecord& record);
-void PrefetchVertices(const FrameDrawable& drawable, const TriangleRecord& record);
+void SetUpTriangles(const SetupTask& task);
 
 }  // namespace facet

@@ -100,7 +100,8 @@ std::vector<Attributes> Interpolate(const FrameView& view, const Drawable& place
   const int anchor_x = int(std::floor(at[0].x)) & ~63, anchor_y = int(std::floor(at[0].y)) & ~63;
   const FrameDrawable drawable = MakeFrameDrawable(view, placed);
   std::vector<float> setup(SetupLayout::kStride, -7.0f);
-  SetUpTriangle(view, drawable, material, record, anchor_x, anchor_y, setup.data());
+  const TriangleRecord* const records[] = {&record};
+  SetUpTriangles({&view, &drawable, &material, anchor_x, anchor_y, records, 1, setup.data()});
   const std::size_t padded = (at.size() + 15) / 16 * 16;
   std::vector<std::int32_t> setups(padded, 0);
   std::vector<float> x(padded, 0.0f), y(padded, 0.0f), out(padded * kSurfaceNumbers), first;
