@@ -37,31 +37,37 @@ HWY_INLINE CornerLanes Select(Mask m, const CornerLanes& a, const CornerLanes& b
   return {Select(m, a.x, b.x), Select(m, a.y, b.y), a.outcode, Select(m, a.depth, b.depth)};
 }
 
-// Which samples of the 2 x 2 pixels from (first_x, first_y) on a triangle covers, by the rasterizer's edge functions
-// and fill rule, as TriangleRecord::covered has them. Its corners lie clockwise, less than 3 pixels from one another:
-// every term is below 2^21. (Other lanes wrap, and are not asked.)
+// Which samples of the CoverageSquare from (first_x, first_y) on a triangle covers, by the rasterizer's edge functions
+// and fill rule, as TriangleRecord::covered has them. Its corners lie clockwise, less than 4 pixels from one another:
+// every term is below 2^22. (Other lanes wrap, and are not asked.)
 HWY_INLINE Int CoveredSamples(const Int (&x_fx8)[3], const Int (&y_fx8)[3], Int first_x, Int first_y, int samples) {
   const Int x0 = ShiftLeft<kSubpixelBits>(first_x), y0 = ShiftLeft<kSubpixelBits>(first_y);
-  Int a[3], b[3], c[3];
+  Int a[3], b[3], c[3], right[3], down[3];
   for (int i = 0; i < 3; ++i) {
     const int j = i == 2 ? 0 : i + 1;
     a[i] = y_fx8[i] - y_fx8[j], b[i] = x_fx8[j] - x_fx8[i];
     const Mask left_or_top = (a[i] > Int(0)) | ((a[i] == Int(0)) & (b[i] > Int(0)));
     c[i] = Select(left_or_top, Int(0), Int(-1)) - a[i] * (x_fx8[i] - x0) - b[i] * (y_fx8[i] - y0);
+    right[i] = ShiftLeft<kSubpixelBits>(a[i]), down[i] = ShiftLeft<kSubpixelBits>(b[i]);
   }
+  const CoverageSquare square = CoverageSquareOf(samples);
   Int covered(0);
   const SamplePosition* pattern = SamplePattern(samples);
   for (int s = 0; s < samples; ++s) {
     constexpr int kUnit = kSubpixelScale / kSampleGrid;
-    Int e[4][3];
+    Int row[3];
     for (int i = 0; i < 3; ++i) {
-      const Int right = ShiftLeft<kSubpixelBits>(a[i]), down = ShiftLeft<kSubpixelBits>(b[i]);
-      e[0][i] = c[i] + a[i] * Int(pattern[s].x * kUnit) + b[i] * Int(pattern[s].y * kUnit);
-      e[1][i] = e[0][i] + right, e[2][i] = e[0][i] + down, e[3][i] = e[1][i] + down;
+      row[i] = c[i] + a[i] * Int(pattern[s].x * kUnit) + b[i] * Int(pattern[s].y * kUnit);
     }
-    for (int p = 0; p < 4; ++p) {
-      const Mask inside = !((e[p][0] | e[p][1] | e[p][2]) < Int(0));
-      covered = covered | Select(inside, Int(static_cast<std::int32_t>(1u << (8 * p + s))), Int(0));
+    for (int y = 0; y < square.side; ++y) {
+      Int e[3] = {row[0], row[1], row[2]};
+      for (int x = 0; x < square.side; ++x) {
+        const Mask outside = (e[0] | e[1] | e[2]) < Int(0);
+        const std::uint32_t bit = 1u << (((y << square.stride_bits) + x) * samples + s);
+        covered = covered | Select(outside, Int(0), Int(static_cast<std::int32_t>(bit)));
+        for (int i = 0; i < 3; ++i) e[i] = e[i] + right[i];
+      }
+      for (int i = 0; i < 3; ++i) row[i] = row[i] + down[i];
     }
   }
   return covered;
@@ -90,7 +96,8 @@ HWY_INLINE CoverageLanes FindCoverage(const Int (&x_fx8)[3], const Int (&y_fx8)[
   const Int first_x = first(box.low_x, reach.high_x), last_x = last(box.high_x, reach.low_x);
   const Int first_y = first(box.low_y, reach.high_y), last_y = last(box.high_y, reach.low_y);
   const Mask some = asked & !((first_x > last_x) | (first_y > last_y));
-  const Mask few = some & (last_x - first_x < Int(2)) & (last_y - first_y < Int(2));
+  const Int side(CoverageSquareOf(samples).side);
+  const Mask few = some & (last_x - first_x < side) & (last_y - first_y < side);
   if (!Any(few)) return {some, Int(0)};
   const Int covered = Select(few, CoveredSamples(x_fx8, y_fx8, first_x, first_y, samples), Int(0));
   return {some & !(few & (covered == Int(0))), covered};

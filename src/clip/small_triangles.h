@@ -10,7 +10,7 @@ namespace facet {
 
 // What a triangle, its corners clockwise, covers.
 struct SampleCoverage {
-  bool some;              // false: no sample. Of a triangle beyond 2 x 2 pixels its bounding box alone is asked
+  bool some;              // false: no sample. Of one beyond CoverageSquareOf() its bounding box alone is asked
   std::uint32_t covered;  // TriangleRecord::covered
 };
 SampleCoverage CoverageOf(const std::int32_t (&x_fx8)[3], const std::int32_t (&y_fx8)[3], int samples);

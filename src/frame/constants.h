@@ -75,6 +75,16 @@ constexpr SampleReach ReachOf(int samples) {
   return reach;
 }
 
+// A triangle that spans the samples of no more than `side` x `side` pixels is known by what it covers, in one number.
+struct CoverageSquare {
+  int side;
+  int stride_bits;  // of pixels from one row to the next in that number
+};
+
+constexpr CoverageSquare CoverageSquareOf(int samples) {
+  return samples <= 2 ? CoverageSquare{3, 2} : CoverageSquare{2, 1};
+}
+
 // The first column (row) of pixels with a sample at or after a position; `high`: the reach's.
 constexpr std::int32_t FirstPixel(std::int32_t from_fx8, int high) {
   return (from_fx8 + kSubpixelScale - 1 - high) >> kSubpixelBits;

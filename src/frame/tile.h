@@ -48,14 +48,16 @@ struct TileBuffers {
   template <int kSamples>
   int Samples() const { return kSamples != 0 ? kSamples : samples; }
 
-  int BlocksPerRow() const { return tile_size / kBlockSize; }
+  int BlocksPerRow() const { return static_cast<int>(static_cast<unsigned>(tile_size) / kBlockSize); }
   std::size_t BlockIndex(int block_x, int block_y) const { return std::size_t(block_y * BlocksPerRow() + block_x); }
   std::size_t BlockOffset(int block_x, int block_y) const {
     return BlockIndex(block_x, block_y) * std::size_t(samples * kBlockPixels);
   }
   std::size_t Index(int x, int y, int sample) const {
-    return BlockOffset(x / kBlockSize, y / kBlockSize) +
-           std::size_t(sample * kBlockPixels + (y % kBlockSize) * kBlockSize + x % kBlockSize);
+    // Of numbers without sign, quotient and remainder are a shift and a mask.
+    const unsigned column = static_cast<unsigned>(x), row = static_cast<unsigned>(y);
+    return BlockOffset(static_cast<int>(column / kBlockSize), static_cast<int>(row / kBlockSize)) +
+           std::size_t(static_cast<unsigned>(sample * kBlockPixels) + row % kBlockSize * kBlockSize + column % kBlockSize);
   }
 };
 

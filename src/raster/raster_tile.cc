@@ -100,26 +100,32 @@ struct BlockRange {
 template <bool kOrEqual, int kSamples, class Visit, class EndPixel>
 HWY_INLINE void VisitKnownCoverage(const TriangleRecord& r, const TileBuffers& tile, const SampleReach& reach,
                                    const Visit& visit, const EndPixel& end_pixel) {
-  const SamplePosition* pattern = SamplePattern(tile.Samples<kSamples>());
+  const int samples_a_pixel = tile.Samples<kSamples>();
+  const SamplePosition* pattern = SamplePattern(samples_a_pixel);
+  const int stride_bits = CoverageSquareOf(samples_a_pixel).stride_bits;
+  const std::uint32_t all = (1u << samples_a_pixel) - 1;
+  const int sample_bits = __builtin_popcount(static_cast<unsigned>(samples_a_pixel - 1));
   const int first_x = FirstPixel(LeastOf(r.x_fx8), reach.high_x) - tile.x0;
   const int first_y = FirstPixel(LeastOf(r.y_fx8), reach.high_y) - tile.y0;
   for (std::uint32_t left = r.covered; left != 0;) {
-    const int pixel = __builtin_ctz(left) / 8;
-    std::uint32_t samples = left & 0xFFu << 8 * pixel;
-    left ^= samples;
-    const int x = first_x + pixel % 2, y = first_y + pixel / 2;
+    const int first_bit = __builtin_ctz(left) & -samples_a_pixel, pixel = first_bit >> sample_bits;
+    std::uint32_t samples = left >> first_bit & all;
+    left ^= samples << first_bit;
+    const int x = first_x + (pixel & ((1 << stride_bits) - 1)), y = first_y + (pixel >> stride_bits);
     if (static_cast<unsigned>(x) >= static_cast<unsigned>(tile.width) ||
         static_cast<unsigned>(y) >= static_cast<unsigned>(tile.height)) {
       continue;
     }
-    const int in_block_x = x % kBlockSize, in_block_y = y % kBlockSize;
+    const std::size_t place = tile.Index(x, y, 0);
+    if (kSamples == 1 && (kOrEqual ? r.depth_max < tile.depth[place] : r.depth_max <= tile.depth[place])) continue;
+    const int in_block_x = x & (kBlockSize - 1), in_block_y = y & (kBlockSize - 1);
     const BlockDepth d = MakeBlockDepth(r, tile.x0 + x - in_block_x, tile.y0 + y - in_block_y);
-    for (samples >>= 8 * pixel; samples != 0; samples &= samples - 1) {
+    for (; samples != 0; samples &= samples - 1) {
       const int s = kSamples == 1 ? 0 : __builtin_ctz(samples);
       constexpr float kUnit = 1.0f / kSampleGrid;
       const float depth = DepthAt(d, static_cast<float>(in_block_x * kSampleGrid + pattern[s].x) * kUnit,
                                   static_cast<float>(in_block_y * kSampleGrid + pattern[s].y) * kUnit);
-      const std::size_t offset = tile.Index(x, y, s);
+      const std::size_t offset = place + std::size_t(s * kBlockPixels);
       if (kOrEqual ? depth >= tile.depth[offset] : depth > tile.depth[offset]) visit(offset, s, depth);
     }
     end_pixel(x, y);

@@ -150,26 +150,27 @@ TEST(SmallTriangles, KnownCoverageIsExact) {
     for (const int samples : {1, 2, 4, 8}) {
       const SampleReach reach = ReachOf(samples);
       const Primitive soup = Soup(random, 2000, false);
+      const int side = samples <= 2 ? 3 : 2;  // pixels
       int known = 0, wide = 0;
       const Assembled out = Assemble(view, PlaceDrawable(view, soup, glm::dmat4(1.0), true), samples);
       for (const TriangleRecord& r : out.chunk.records) {
         const auto [low_x, high_x] = std::minmax({r.x_fx8[0], r.x_fx8[1], r.x_fx8[2]});
         const auto [low_y, high_y] = std::minmax({r.y_fx8[0], r.y_fx8[1], r.y_fx8[2]});
         std::uint32_t expected = 0;
-        int outside = 0;  // of the 2 x 2 pixels, in the box of 4 x 4 around them
-        for (int y = -1; y < 3; ++y) {
-          for (int x = -1; x < 3; ++x) {
+        int outside = 0;  // of the square, in the pixels around it
+        for (int y = -1; y <= side; ++y) {
+          for (int x = -1; x <= side; ++x) {
             for (int s = 0; s < samples; ++s) {
               const int column = FirstPixel(low_x, reach.high_x) + x, row = FirstPixel(low_y, reach.high_y) + y;
               if (!CoversExactly(r, SampleAt(column, row, samples, s))) continue;
-              if (x < 0 || y < 0 || x > 1 || y > 1) ++outside;
-              else expected |= 1u << (8 * (2 * y + x) + s);
+              if (x < 0 || y < 0 || x >= side || y >= side) ++outside;
+              else expected |= 1u << (((side == 3 ? 4 : 2) * y + x) * samples + s);
             }
           }
         }
         const auto last = [](std::int32_t high, int low) { return (high - low) >> kSubpixelBits; };
-        const bool few = last(high_x, reach.low_x) - FirstPixel(low_x, reach.high_x) < 2 &&
-                         last(high_y, reach.low_y) - FirstPixel(low_y, reach.high_y) < 2;
+        const bool few = last(high_x, reach.low_x) - FirstPixel(low_x, reach.high_x) < side &&
+                         last(high_y, reach.low_y) - FirstPixel(low_y, reach.high_y) < side;
         EXPECT_EQ(r.covered, few ? expected : 0u) << TargetName(target) << ", " << samples << " samples";
         if (few) {
           EXPECT_EQ(outside, 0);
