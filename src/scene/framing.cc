@@ -28,6 +28,17 @@ struct Rows {
     for (int i = 0; i < 5; ++i) row[i] = world.row[i] * world_from_mesh;
   }
 
+  // True if no point within the box can be beyond what is there already. Sums are rounded: a bound has a little more.
+  bool NoneBeyond(const Bounds& box, const double (&largest)[5]) const {
+    for (int i = 0; i < 5; ++i) {
+      const glm::dvec3 a = glm::dvec3(row[i]) * box.low, b = glm::dvec3(row[i]) * box.high, most = glm::max(a, b);
+      const glm::dvec3 size = glm::max(glm::abs(a), glm::abs(b));
+      const double rounding = 1e-12 * (size.x + size.y + size.z + std::fabs(row[i].w));
+      if (!(most.x + most.y + most.z + row[i].w + rounding <= largest[i])) return false;
+    }
+    return true;
+  }
+
   void Include(const glm::dvec3& position, double (&largest)[5]) const {
     for (int i = 0; i < 5; ++i) {
       const double value = glm::dot(row[i], glm::dvec4(position, 1.0));
@@ -45,6 +56,7 @@ ViewExtent MeasureView(const PosedScene& posed, const glm::dvec3& target, const 
   std::mutex mutex;
   for (const Drawable& drawable : posed.drawables) {
     const Rows rows(world, drawable.world_from_mesh);
+    if (!drawable.bounds_mesh.empty && rows.NoneBeyond(drawable.bounds_mesh, largest)) continue;
     const std::vector<glm::vec3>& positions = drawable.geometry->positions;
     ParallelFor(positions.size(), kGrain, [&](std::size_t begin, std::size_t end) {
       double own[5] = {kNothing, kNothing, kNothing, kNothing, kNothing};
