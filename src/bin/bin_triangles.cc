@@ -101,7 +101,7 @@ void BinChunk(const TileGrid& grid, TriangleChunk& chunk) {
     chunk.entries[i] = place[entries[i].record];
   }
   for (std::uint32_t i = 0; i < place.size(); ++i) put(i);
-  std::copy(ordered.begin(), ordered.end(), chunk.records.begin());  // which keeps its memory from frame to frame
+  chunk.records.swap(ordered);
   chunk.begin.push_back(static_cast<std::uint32_t>(entries.size()));
 }
 
