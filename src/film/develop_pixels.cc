@@ -131,23 +131,43 @@ HWY_INLINE void DevelopLinear(const DevelopTask& task, const float* pixels, std:
   StoreEach<float>(values, task.opaque, room, out);
 }
 
+// LaneCount() pixels, of which `room` may be written.
+HWY_INLINE void DevelopPacket(const DevelopTask& task, const float* pixels, std::size_t room, std::byte* out) {
+  switch (task.type) {
+    case ChannelType::U8: return StoreBytes(DevelopCodes(task, pixels), task.opaque, room, out);
+    case ChannelType::U16: return StoreWords(DevelopCodes(task, pixels), task.opaque, room, out);
+    case ChannelType::F32: return DevelopLinear(task, pixels, room, out);
+  }
+}
+
+// True if the packet's numbers are all zero: most of a picture without background often is.
+HWY_INLINE bool IsEmpty(const float* pixels) {
+  Int bits(0);
+  for (std::size_t i = 0; i < 4; ++i) bits = bits | BitsOf(LoadFloat(pixels + i * LaneCount()));
+  return All(bits == Int(0));
+}
+
 void DevelopPixels(const DevelopTask& task) {
-  const std::size_t lanes = LaneCount();
-  const std::size_t pixel_size = task.PixelBytes();
-  for (std::size_t i = 0; i < task.count; i += lanes) {
-    const std::size_t count = std::min(lanes, task.count - i);
-    const float* pixels = task.pixels + 4 * i;
-    float padded[4 * kMaxLanes];
-    if (count < lanes) {
-      std::fill(std::begin(padded), std::end(padded), 0.0f);
-      std::copy_n(pixels, 4 * count, padded);
-      pixels = padded;
-    }
-    std::byte* out = task.out + i * pixel_size;
-    switch (task.type) {
-      case ChannelType::U8: StoreBytes(DevelopCodes(task, pixels), task.opaque, count, out); break;
-      case ChannelType::U16: StoreWords(DevelopCodes(task, pixels), task.opaque, count, out); break;
-      case ChannelType::F32: DevelopLinear(task, pixels, count, out); break;
+  const std::size_t lanes = LaneCount(), pixel_size = task.PixelBytes();
+  alignas(64) std::byte empty[4 * kMaxLanes * sizeof(float)];  // a packet of empty pixels
+  const float zeros[4 * kMaxLanes] = {};
+  DevelopPacket(task, zeros, lanes, empty);
+  for (std::size_t y = 0; y < task.rows; ++y) {
+    for (std::size_t x = 0; x < task.count; x += lanes) {
+      const std::size_t count = std::min(lanes, task.count - x);
+      const float* pixels = task.pixels + 4 * (y * task.pixel_stride + x);
+      float padded[4 * kMaxLanes];
+      if (count < lanes) {
+        std::fill(std::begin(padded), std::end(padded), 0.0f);
+        std::copy_n(pixels, 4 * count, padded);
+        pixels = padded;
+      }
+      std::byte* out = task.out + (y * task.out_stride + x) * pixel_size;
+      if (IsEmpty(pixels)) {
+        std::memcpy(out, empty, count * pixel_size);
+      } else {
+        DevelopPacket(task, pixels, count, out);
+      }
     }
   }
 }

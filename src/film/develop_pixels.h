@@ -1,4 +1,4 @@
-// The kernel of Develop: consecutive pixels of a film to those of a picture.
+// The kernel of Develop: pixels of a film, or of a tile, to those of a picture.
 #pragma once
 
 #include <array>
@@ -10,9 +10,10 @@
 namespace facet {
 
 struct DevelopTask {
-  const float* pixels = nullptr;  // `count` times 4: linear, premultiplied
-  std::size_t count = 0;
-  std::byte* out = nullptr;  // `count` times 4 numbers of `type`, or 3 when `opaque`
+  const float* pixels = nullptr;  // 4 numbers each: linear, premultiplied
+  std::size_t count = 0;          // pixels of a row
+  std::size_t rows = 1, pixel_stride = 0, out_stride = 0;  // pixels from one row to the next
+  std::byte* out = nullptr;  // 4 numbers of `type` each, or 3 when `opaque`
   ChannelType type = ChannelType::U8;
   ToneMap tone_map = ToneMap::None;
   float exposure = 1.0f;  // a factor, finite, positive
