@@ -13,6 +13,13 @@ struct TileRange {
   int x0, y0, x1, y1;  // inclusive; empty when x1 < x0 or y1 < y0
 };
 
+// The corners' positions differ only in the bits below a tile's.
+bool InOneTile(int tile_bits_fx8, const TriangleRecord& r) {
+  const std::int32_t x = (r.x_fx8[0] ^ r.x_fx8[1]) | (r.x_fx8[0] ^ r.x_fx8[2]);
+  const std::int32_t y = (r.y_fx8[0] ^ r.y_fx8[1]) | (r.y_fx8[0] ^ r.y_fx8[2]);
+  return (x | y) >> tile_bits_fx8 == 0;
+}
+
 TileRange TilesOf(const TileGrid& grid, int tile_bits_fx8, const TriangleRecord& r) {
   return {std::max(LeastOf(r.x_fx8) >> tile_bits_fx8, 0), std::max(LeastOf(r.y_fx8) >> tile_bits_fx8, 0),
           std::min(GreatestOf(r.x_fx8) >> tile_bits_fx8, grid.columns - 1),
@@ -65,11 +72,14 @@ void BinChunk(const TileGrid& grid, TriangleChunk& chunk) {
   entries.reserve(chunk.records.size() + chunk.records.size() / 4);
   for (std::uint32_t i = 0; i < chunk.records.size(); ++i) {
     const TriangleRecord& r = chunk.records[i];
-    const TileRange range = TilesOf(grid, tile_bits_fx8, r);
-    if (range.x0 == range.x1 && range.y0 == range.y1) {
-      entries.push_back({static_cast<std::uint32_t>(range.y0 * grid.columns + range.x0), i});
+    if (InOneTile(tile_bits_fx8, r)) {
+      const int x = r.x_fx8[0] >> tile_bits_fx8, y = r.y_fx8[0] >> tile_bits_fx8;
+      if (x >= 0 && y >= 0 && x < grid.columns && y < grid.rows) {
+        entries.push_back({static_cast<std::uint32_t>(y * grid.columns + x), i});
+      }
       continue;
     }
+    const TileRange range = TilesOf(grid, tile_bits_fx8, r);
     const bool test = range.x1 - range.x0 + range.y1 - range.y0 >= 2;
     for (int y = range.y0; y <= range.y1; ++y) {
       for (int x = range.x0; x <= range.x1; ++x) {
@@ -87,20 +97,24 @@ void BinChunk(const TileGrid& grid, TriangleChunk& chunk) {
   std::vector<std::uint32_t> place(chunk.records.size(), kNowhere);
   std::vector<TriangleRecord> ordered;
   ordered.reserve(chunk.records.size());
+  const TriangleRecord* records = chunk.records.data();
+  std::uint32_t count = 0;  // of `ordered`, whose size() is a division
   const auto put = [&](std::uint32_t record) {
-    if (place[record] != kNowhere) return;
-    place[record] = static_cast<std::uint32_t>(ordered.size());
-    ordered.push_back(chunk.records[record]);
+    std::uint32_t& at = place[record];
+    if (at == kNowhere) at = count++, ordered.push_back(records[record]);
+    return at;
   };
+  std::uint32_t last_tile = kNowhere;
   for (std::uint32_t i = 0; i < entries.size(); ++i) {
-    if (i == 0 || entries[i].tile != entries[i - 1].tile) {
-      chunk.tiles.push_back(entries[i].tile);
+    const Entry e = entries[i];
+    if (e.tile != last_tile) {
+      last_tile = e.tile;
+      chunk.tiles.push_back(e.tile);
       chunk.begin.push_back(i);
     }
-    put(entries[i].record);
-    chunk.entries[i] = place[entries[i].record];
+    chunk.entries[i] = put(e.record);
   }
-  for (std::uint32_t i = 0; i < place.size(); ++i) put(i);
+  for (std::uint32_t i = 0; count < place.size(); ++i) put(i);  // those that touch no tile
   chunk.records.swap(ordered);
   chunk.begin.push_back(static_cast<std::uint32_t>(entries.size()));
 }

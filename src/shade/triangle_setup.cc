@@ -164,6 +164,8 @@ struct Group {
   alignas(64) double sides[kMaxDoubles];  // -1 for those seen from behind
 };
 
+constexpr float kNoTangent[3] = {1.0f, 0.0f, 0.0f};
+
 using Vertices = std::array<std::uint32_t, 3>;
 
 void SetUpGroup(const SetupTask& task, const Group& group, SetupLanes& out) {
@@ -253,11 +255,11 @@ void SetUpTrianglesKernel(const SetupTask& task) {
   const auto ask_for_vertices = [&](std::size_t i) HWY_ATTR {
     if (i >= task.count) return;
     const Primitive& geometry = *task.drawables[task.records[i]->drawable].geometry;
-    vertices[place(i)] = PrimitiveVertices(geometry, task.records[i]->primitive);
-    for (const std::uint32_t v : vertices[place(i)]) {
-      __builtin_prefetch(&geometry.positions[v]);
-      if (lit && !geometry.normals.empty()) __builtin_prefetch(&geometry.normals[v]);
-    }
+    const Vertices vertex = PrimitiveVertices(geometry, task.records[i]->primitive);
+    vertices[place(i)] = vertex;
+    const glm::vec3* positions = geometry.positions.data();
+    const glm::vec3* normals = geometry.normals.empty() ? positions : geometry.normals.data();
+    for (const std::uint32_t v : vertex) __builtin_prefetch(positions + v), __builtin_prefetch(normals + v);
   };
   for (std::size_t i = 0; i < 2 * kAhead; ++i) ask_for_indices(i);
   for (std::size_t i = 0; i < kAhead; ++i) ask_for_vertices(i);
@@ -268,6 +270,9 @@ void SetUpTrianglesKernel(const SetupTask& task) {
     group.drawable = task.drawables + task.records[i]->drawable;
     group.kind = task.records[i]->kind;
     const Primitive& geometry = *group.drawable->geometry;
+    const glm::vec3* positions = geometry.positions.data();
+    const glm::vec3* normals = lit && !geometry.normals.empty() ? geometry.normals.data() : nullptr;
+    const glm::vec4* tangents = normal_texture && !geometry.tangents.empty() ? geometry.tangents.data() : nullptr;
     const std::size_t most = std::min(hn::Lanes(DoubleTag()), task.count - i);
     std::size_t n = 0;
     for (; n < most; ++n) {
@@ -276,11 +281,9 @@ void SetUpTrianglesKernel(const SetupTask& task) {
       const Vertices& vertex = vertices[place(i + n)];
       for (int k = 0; k < 3; ++k) {
         const std::size_t v = vertex[std::size_t(k)];
-        group.positions.Set(n, k, &geometry.positions[v].x);
-        if (lit && !geometry.normals.empty()) group.normals.Set(n, k, &geometry.normals[v].x);
-        if (!normal_texture) continue;
-        const glm::vec4 none(1, 0, 0, 1);
-        group.tangents.Set(n, k, geometry.tangents.empty() ? &none.x : &geometry.tangents[v].x);
+        group.positions.Set(n, k, &positions[v].x);
+        if (normals != nullptr) group.normals.Set(n, k, &normals[v].x);
+        if (normal_texture) group.tangents.Set(n, k, tangents != nullptr ? &tangents[v].x : kNoTangent);
       }
       group.sides[n] = record.back_facing ? -1.0 : 1.0;
     }

@@ -3,6 +3,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <random>
 
@@ -50,6 +51,33 @@ Film WildFilm(int width, int height) {
     film.pixels.push_back({channel(), channel(), channel(), i % 101 == 0 ? channel() : alpha});
   }
   return film;
+}
+
+// Whole packets of empty pixels are not computed: what stands there is what a single empty pixel becomes.
+TEST(Develop, EmptyPixelsAreWhatEachIsAlone) {
+  Film film{203, 1, {}};
+  for (int i = 0; i < 203; ++i) {
+    const bool seen = i / 40 % 2 == 1 && i % 7 != 0;
+    film.pixels.emplace_back(seen ? glm::vec4(0.01f * static_cast<float>(i), 0.5f, 0.25f, 0.75f) : glm::vec4(0.0f));
+  }
+  const std::optional<glm::vec3> backgrounds[] = {std::nullopt, glm::vec3(0.0f), glm::vec3(0.2f, 0.5f, 1.0f)};
+  for (const Target target : {Target::Scalar, Target::Sse4, Target::Avx2, Target::Avx3, Target::Neon}) {
+    if (!TargetIsAvailable(target)) continue;
+    const ScopedTarget scoped(target);
+    for (const ToneMap map : {ToneMap::None, ToneMap::Neutral, ToneMap::AgX}) {
+      for (const auto& background : backgrounds) {
+        for (const ChannelType type : {ChannelType::U8, ChannelType::U16, ChannelType::F32}) {
+          const Image all = Develop(film, Display(map, 1.0, background), type);
+          const std::size_t size = all.bytes.size() / 203;
+          for (std::size_t i = 0; i < 203; ++i) {
+            const Image one = Develop(OnePixel(film.pixels[i]), Display(map, 1.0, background), type);
+            ASSERT_EQ(std::memcmp(all.bytes.data() + i * size, one.bytes.data(), size), 0)
+                << TargetName(target) << ", pixel " << i;
+          }
+        }
+      }
+    }
+  }
 }
 
 TEST(Develop, CodesOfABytePictureSurvive) {
