@@ -75,8 +75,8 @@ struct TriangleRecord {
   std::uint32_t primitive;  // within the drawable
   RecordKind kind;
   bool back_facing;
-  // Of a triangle within a CoverageSquare, the samples that it covers: bit ((y << stride_bits) + x) * samples + s is sample
-  // s of pixel (x, y) from FirstPixel() of its least x and y on. 0: not known.
+  // Of a triangle within a CoverageSquare, the samples that it covers: bit ((y << stride_bits) + x) * samples + s is
+  // sample s of pixel (x, y) from FirstPixel() of its least x and y on. 0: not known.
   std::uint32_t covered;
   TriangleRecord() : primitive(0), kind(RecordKind::Triangle), back_facing(false), covered(0) {}  // NOLINT: rest unset
 };

@@ -56,8 +56,9 @@ struct TileBuffers {
   std::size_t Index(int x, int y, int sample) const {
     // Of numbers without sign, quotient and remainder are a shift and a mask.
     const unsigned column = static_cast<unsigned>(x), row = static_cast<unsigned>(y);
+    const unsigned in_block = row % kBlockSize * kBlockSize + column % kBlockSize;
     return BlockOffset(static_cast<int>(column / kBlockSize), static_cast<int>(row / kBlockSize)) +
-           std::size_t(static_cast<unsigned>(sample * kBlockPixels) + row % kBlockSize * kBlockSize + column % kBlockSize);
+           std::size_t(sample * kBlockPixels) + in_block;
   }
 };
 

@@ -217,7 +217,8 @@ void SetUpGroup(const SetupTask& task, const Group& group, SetupLanes& out) {
 // What is only copied.
 void CopyAttributes(const FrameMaterial& material, const Primitive& geometry, const Vertices& vertex, float* setup) {
   if (material.Has(kNormalTexture) && !geometry.tangents.empty()) {
-    for (int i = 0; i < 3; ++i) setup[SetupLayout::kTangents + 4 * i + 3] *= geometry.tangents[vertex[std::size_t(i)]].w;
+    float* handedness = setup + SetupLayout::kTangents + 3;
+    for (int i = 0; i < 3; ++i) handedness[4 * i] *= geometry.tangents[vertex[std::size_t(i)]].w;
   }
   if (material.vertex_colors) {
     for (int i = 0; i < 3; ++i) {

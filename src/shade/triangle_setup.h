@@ -33,7 +33,7 @@ struct SetupTask {
   float* setups = nullptr;                   // out: SetupLayout::kStride numbers each, in the order of the records
 };
 
-// Sets of the attributes only those that the material reads. What it gives a primitive does not depend on its neighbours.
+// Sets of the attributes only those that the material reads. What a primitive gets does not depend on its neighbours.
 //
 // The weights are the inverse of the matrix of the vertices in homogeneous screen space (Olano and Greer 1997,
 // "Triangle Scan Conversion using 2D Homogeneous Coordinates"), so they need no clipping, and they are computed in

@@ -66,7 +66,8 @@ std::vector<Part> ReadParts(const FrameMaterial& material) {
   if (material.Has(kLit)) parts.push_back({SetupLayout::kPositions, SetupLayout::kTangents});
   if (material.Has(kNormalTexture)) parts.push_back({SetupLayout::kTangents, SetupLayout::kColors});
   if (material.vertex_colors) parts.push_back({SetupLayout::kColors, SetupLayout::kTexCoords});
-  if (material.uv_slots > 0) parts.push_back({SetupLayout::kTexCoords, SetupLayout::kTexCoords + 6 * material.uv_slots});
+  constexpr int kUv = SetupLayout::kTexCoords;
+  if (material.uv_slots > 0) parts.push_back({kUv, kUv + 6 * material.uv_slots});
   return parts;
 }
 
