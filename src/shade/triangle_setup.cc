@@ -245,8 +245,8 @@ void SetUpTrianglesKernel(const SetupTask& task) {
   const FrameMaterial& material = *task.material;
   const bool lit = material.Has(kLit), normal_texture = material.Has(kNormalTexture);
   const int count = normal_texture ? SetupLayout::kColors : lit ? SetupLayout::kTangents : SetupLayout::kPositions;
-  Vertices vertices[2 * kAhead];  // of triangle i at i % (2 * kAhead)
-  const auto place = [](std::size_t i) { return i % (2 * kAhead); };
+  Vertices vertices[kAhead];  // of triangle i at i % kAhead
+  const auto place = [](std::size_t i) { return i % kAhead; };
   const auto ask_for_indices = [&](std::size_t i) HWY_ATTR {
     if (i >= task.count) return;
     const auto& indices = task.drawables[task.records[i]->drawable].geometry->indices;
