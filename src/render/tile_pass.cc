@@ -97,20 +97,19 @@ class TileWorker final : public RecordTable {
       if (background) LayUnder(background_);
       compositor_.Run(tile_, opaque_, blended_, *this, background_, pixels_);
     }
+    const std::size_t first = std::size_t(output_y0) * std::size_t(in_.grid.width) + std::size_t(tile_.x0);
+    if (output.film != nullptr) {
+      for (int y = 0; y < tile_.height; ++y) {
+        const glm::vec4* row = pixels_.data() + y * size;
+        std::copy(row, row + tile_.width, output.film + first + std::ptrdiff_t(y) * in_.grid.width);
+      }
+    } else {
+      Develop(first, output.develop);
+    }
     int covered = 0;
     for (int y = 0; y < tile_.height; ++y) {
-      const glm::vec4* row = pixels_.data() + std::size_t(y) * std::size_t(size);
+      const glm::vec4* row = pixels_.data() + y * size;
       for (int x = 0; x < tile_.width; ++x) covered += row[x].a > 0.0f;
-      const std::ptrdiff_t first = std::ptrdiff_t(output_y0 + y) * in_.grid.width + tile_.x0;
-      if (output.film != nullptr) {
-        std::copy(row, row + tile_.width, output.film + first);
-        continue;
-      }
-      DevelopTask task = output.develop;
-      task.pixels = &row->x;
-      task.count = static_cast<std::size_t>(tile_.width);
-      task.out += first * static_cast<std::ptrdiff_t>(task.PixelBytes());
-      DevelopPixels(task);
     }
     counts.covered += static_cast<std::uint64_t>(covered);
   }
@@ -118,6 +117,16 @@ class TileWorker final : public RecordTable {
   const TriangleRecord& Record(std::int32_t number) const override { return *records_[std::size_t(number)]; }
 
  private:
+  // `first`: the number of the tile's first pixel in the picture that the task is of.
+  void Develop(std::size_t first, DevelopTask task) const {
+    task.pixels = &pixels_[0].x;
+    task.count = static_cast<std::size_t>(tile_.width), task.rows = static_cast<std::size_t>(tile_.height);
+    task.pixel_stride = static_cast<std::size_t>(tile_.tile_size);
+    task.out_stride = static_cast<std::size_t>(in_.grid.width);
+    task.out += first * task.PixelBytes();
+    DevelopPixels(task);
+  }
+
   // Appends to records_; their places there are the numbers by which the tile knows them.
   TileTriangles Gather(const std::vector<TileRun>& runs) {
     const std::size_t before = records_.size();

@@ -58,10 +58,10 @@ TextureBuilder::TextureBuilder(const Image& form, int height, TextureRole role, 
   PlaceChannels(channels);
   LayOut(texture_, width_, height, mips);
   if (emission) {
-    leave_black_ = texture_.bytes.size() >= kLargeArray;
-    texture_.sparse = texture_.wide;
-    PreferSmallPages(texture_.bytes.data(), texture_.bytes.size());
     PlaceCells();
+    texture_.sparse = texture_.wide && texture_.dark.width > 0;
+    leave_black_ = texture_.dark.width > 0 && texture_.bytes.size() >= kLargeArray;
+    if (leave_black_) PreferSmallPages(texture_.bytes.data(), texture_.bytes.size());
   }
   if (type_ != ChannelType::F32) {
     const int codes = type_ == ChannelType::U8 ? 256 : 65536;

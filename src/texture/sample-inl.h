@@ -38,9 +38,8 @@ HWY_INLINE T Wrapped(Wrap wrap, T position) {
       const T folded = position - T(2.0f) * Floor(position * T(0.5f));
       return Select(folded > T(1.0f), T(2.0f) - folded, folded);
     }
-    case Wrap::ClampToEdge: break;
+    default: return Clamp(position, T(0.0f), T(1.0f));
   }
-  return Clamp(position, T(0.0f), T(1.0f));
 }
 
 // `position` in units of the texture; `size` in texels; `linear`: lanes that interpolate.
@@ -403,8 +402,7 @@ HWY_INLINE void SumTexelsInLanes(const TextureData* const* textures, const Textu
 }
 #endif
 
-// Sums the texels at `taps` of kCount textures that all have those taps. A sparse one is summed alone. (A call for each of
-// the ways to read costs a shader's kernel less than having them all within it.)
+// Sums the texels at `taps` of kCount textures that all have those taps; a sparse one alone. (Not inlined: it is large.)
 template <int kCount, class T>
 HWY_NOINLINE void SumTexels(const TextureData* const* textures, const TextureTaps<T>& taps, TexelSums<T>* sums) {
   if constexpr (kInLanes<T>) {

@@ -44,7 +44,7 @@ struct DarkCells {
 // 4 texels, with four loads a footprint, are slower. The extra texel also keeps rows from lying powers of two apart.)
 struct TextureData {
   bool wide = false;    // a number takes 16 bits, and is kept as signed: less 32768; else 8
-  bool sparse = false;  // ... but as it is, so that black is 0 and needs no memory
+  bool sparse = false;  // ... but as it is, so that black is 0 and needs no memory; only where `dark` is known
   int stored = 0;       // numbers of a texel
   // Which number of a texel each of R, G, B and A is; those of a grey picture share one. -1: it is not kept. Alpha
   // that is not kept is 1.

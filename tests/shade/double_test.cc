@@ -196,9 +196,26 @@ Scene TexturedInGroups(int first_group) {
   return scene;
 }
 
+// Emission in spots, on a texture like that of another size or like the base colour's: some packets are in the dark,
+// some are not, and some are at its edge.
+Scene SpotsOfEmission(int base_size) {
+  constexpr int kSize = 1024;
+  Scene scene = EverythingTextured();
+  Material& m = scene.materials[0];
+  m.base_color_texture = Ref(AddTexture(scene, Picture(base_size, base_size, [](int x, int y) {
+                                          return glm::u8vec4(60 + x * 37 % 190, 50 + y * 53 % 200, 90, 255);
+                                        })));
+  m.emissive_texture = Ref(AddTexture(scene, Picture(kSize, kSize, [](int x, int y) {
+                                        const bool lit = x / 32 % 6 == 0 && y / 32 % 5 == 0;
+                                        return lit ? glm::u8vec4(250, 30 + x % 32, 99, 255) : glm::u8vec4(0, 0, 0, 255);
+                                      })));
+  m.base_color_texture.scale = m.emissive_texture.scale = {0.3f, 0.2f};
+  return scene;
+}
+
 TEST(ShadeFragments, FloatByFloatGivesTheLanesBits) {
   const FloatShader shader;
-  std::vector<Scene> scenes = {EverythingTextured()};
+  std::vector<Scene> scenes = {EverythingTextured(), SpotsOfEmission(1024), SpotsOfEmission(64)};
   for (const int first_group : {5, 4, 3}) scenes.push_back(TexturedInGroups(first_group));
   for (const char* name : {"room", "showcase"}) scenes.push_back(LoadGltf(Bundled(name)).scene);
   for (const Scene& scene : scenes) {
