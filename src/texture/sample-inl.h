@@ -283,8 +283,8 @@ HWY_INLINE bool IsDark(const TextureSlot& slot, const TextureTaps<T>& taps) {
   };
   const IntOf<T> x = cell(slot.sampler.wrap_u, taps.uv.x, dark.width),
                  y = cell(slot.sampler.wrap_v, taps.uv.y, dark.height);
-  const IntOf<T> lit = FetchInt(dark.lit.data(), y * IntOf<T>(dark.width) + x);
-  return All((lit == IntOf<T>(0)) & (taps.reach <= T(dark.reach)));
+  const MaskOf<T> in_dark = FetchInt(dark.lit.data(), y * IntOf<T>(dark.width) + x) == IntOf<T>(0);
+  return All(in_dark & MaskOf<T>(taps.reach <= T(dark.reach)));
 }
 
 // Asks for the memory of texels that will be read soon, for one lane in `kStep`. (Inlined always: GCC drops calls of
