@@ -158,8 +158,8 @@ struct TextureStats {
   int channels = 0;          // no more than are read
   int bits = 0;              // of a channel
   std::size_t bytes = 0;     // of all levels
-  double dark = 0.0;         // share of it, where it is for emission alone, that is black and not read: no memory is
-                             // taken for what is black of a large texture
+  double dark = 0.0;         // share of it, where it is for emission alone, that is black, also around: not read where
+                             // it is not minified much, and of a large texture it takes no memory
 };
 
 // Times are wall-clock seconds; counts are exact and independent of thread count.

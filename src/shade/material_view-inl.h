@@ -26,7 +26,7 @@ class TextureReader {
   // Finds the texels of the material's first texture, and asks for the memory of all that stand at the same places. It
   // takes long to arrive: call this for a new surface some work before it is shaded.
   HWY_INLINE void ReadAhead(const FrameMaterial& m) {
-    made_for_ = nullptr;
+    made_for_ = dark_ = nullptr;
     summed_count_ = 0;
     const TexturesOf all(m);
     for (int k = 0; k < all.count; ++k) {

@@ -191,7 +191,7 @@ void TextureBuilder::PlaceCells() {
   constexpr int kMost = DarkCells::kMaxSide;
   const auto fits = [&](int l) { return texture_.level_width[l] <= kMost && texture_.level_height[l] <= kMost; };
   for (cell_level_ = 0; cell_level_ < texture_.levels && !fits(cell_level_);) ++cell_level_;
-  if (cell_level_ == texture_.levels || cell_level_ == 0) return;
+  if (cell_level_ == texture_.levels || cell_level_ < 2) return;  // samples reach farther than such small cells
   DarkCells& dark = texture_.dark;
   dark.width = texture_.level_width[cell_level_], dark.height = texture_.level_height[cell_level_];
   dark.lit.resize(std::size_t(dark.width) * std::size_t(dark.height), 0);

@@ -28,7 +28,7 @@ enum ChannelMask : int { kR = 1, kG = 2, kB = 4, kA = 8, kRgb = 7, kRgba = 15 };
 // they need not be read there. Cells are the texels of the first level that is at most kMaxSide wide and high.
 struct DarkCells {
   static constexpr int kMaxSide = 64;
-  int width = 0, height = 0;      // cells; 0: nothing is known
+  int width = 0, height = 0;      // cells; 0: nothing is known, as of small textures
   float reach = 0.0f;             // texels of level 0: what is nearer than this to a dark cell is black
   std::vector<std::int32_t> lit;  // row by row: whether a cell or one of its eight neighbours, as the picture repeats,
                                   // shows something; 0: dark

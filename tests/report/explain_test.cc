@@ -129,8 +129,8 @@ TEST(Explain, TheShareOfEmissionThatIsBlack) {
   for (const bool as_color : {false, true}) {
     Scene scene;
     // A texel of one of 64 x 64 cells, which lights nine.
-    const TextureRef picture = Ref(AddTexture(scene, Picture(128, 128, [](int x, int y) {
-                                                return glm::u8vec4(x == 64 && y == 64 ? 200 : 0, 0, 0, 255);
+    const TextureRef picture = Ref(AddTexture(scene, Picture(256, 256, [](int x, int y) {
+                                                return glm::u8vec4(x == 128 && y == 128 ? 200 : 0, 0, 0, 255);
                                               })));
     Material material;
     material.emissive_factor = glm::vec3(1.0f);

@@ -101,7 +101,7 @@ TEST(SparseTextures, AreTheOthersTexelByTexel) {
 
 TEST(SparseTextures, AreSampledLikeTheOthers) {
   std::mt19937 random(5);
-  Image image = BlackBut(128, 128, {});
+  Image image = BlackBut(256, 256, {});
   for (std::byte& b : image.bytes) b = std::byte(random() % 3 == 0 ? random() : 0);
   const TextureData plain = Emission(image, false), sparse = Emission(image, true);
   EXPECT_TRUE(sparse.sparse);
