@@ -107,7 +107,7 @@ class TextureReader {
   const TextureSlot* made_for_ = nullptr;
   TextureTaps<T> taps_;
   int summed_count_ = 0;
-  const TextureSlot* summed_[5];  // what ReadAll() has read
+  const TextureSlot* summed_[5] = {};  // what ReadAll() has read
   TexelSums<T> sums_[5];
   const TextureSlot* dark_ = nullptr;  // what ReadAll() has found black, without reading
 };
