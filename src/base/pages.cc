@@ -58,20 +58,17 @@ void FreePages(void* memory, [[maybe_unused]] std::size_t bytes) {
 }
 
 #ifdef __linux__
-namespace {
-
-// Of the huge pages that lie within. What madvise answers is no matter.
-void Advise(void* memory, std::size_t bytes, int advice) {
+// What madvise answers is no matter.
+void PreferHugePages(void* memory, std::size_t bytes) {
   if (!IsLarge(bytes)) return;
   const auto begin = (reinterpret_cast<std::uintptr_t>(memory) + kHugePage - 1) / kHugePage * kHugePage;
   const auto end = (reinterpret_cast<std::uintptr_t>(memory) + bytes) / kHugePage * kHugePage;
-  if (begin < end) ::madvise(reinterpret_cast<void*>(begin), end - begin, advice);
+  if (begin < end) ::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
 }
 
-}  // namespace
-
-void PreferHugePages(void* memory, std::size_t bytes) { Advise(memory, bytes, MADV_HUGEPAGE); }
-void PreferSmallPages(void* memory, std::size_t bytes) { Advise(memory, bytes, MADV_NOHUGEPAGE); }
+void PreferSmallPages(void* memory, std::size_t bytes) {
+  if (IsLarge(bytes)) ::madvise(memory, WholePages(bytes), MADV_NOHUGEPAGE);
+}
 #else
 void PreferHugePages(void*, std::size_t) {}
 void PreferSmallPages(void*, std::size_t) {}

@@ -19,7 +19,7 @@ void FreePages(void* memory, std::size_t bytes);
 // resize().
 void PreferHugePages(void* memory, std::size_t bytes);
 
-// For a large array that has not been touched and in which much will never be: a huge page is taken as a whole.
+// For a large array of AllocatePages() in which much will never be touched: a huge page is taken as a whole.
 void PreferSmallPages(void* memory, std::size_t bytes);
 
 // An allocator whose containers do not zero what they grow by: resize() leaves numbers unset.

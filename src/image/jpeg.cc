@@ -83,7 +83,7 @@ jvirt_barray_ptr RequestCoefficients(j_common_ptr codec, int pool, boolean, JDIM
   auto* all = static_cast<Coefficients*>(codec->client_data);
   auto* rows = static_cast<JBLOCKARRAY>(codec->mem->alloc_large(codec, pool, row_count * sizeof(JBLOCKROW)));
   const std::size_t bytes = std::size_t(row_blocks) * row_count * sizeof(JBLOCK) + kAlignment;
-  // Zeros that take no memory until they are touched, which a broken file may never come to.
+  // Zeros; of a large picture, as a rule, they take no memory until they are touched, which a broken file may never do.
   void* const memory = all->count < MAX_COMPONENTS ? std::calloc(bytes, 1) : nullptr;
   if (memory == nullptr) ERREXIT1(codec, JERR_OUT_OF_MEMORY, 0);
   all->arrays[all->count++] = memory;

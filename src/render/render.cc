@@ -221,9 +221,11 @@ class Renderer::Frames {
   const PosedScene& Posed(const PoseSettings& pose) {
     if (!posed_ || pose != pose_) {
       posed_.reset();
-      posed_ = PoseIncomplete(scene_, pose);
+      completed_.clear();
+      PosedScene posed = PoseIncomplete(scene_, pose);
+      completed_.resize(posed.incomplete.size());
       pose_ = pose;
-      completed_.assign(posed_->incomplete.size(), {});
+      posed_ = std::move(posed);
     }
     return *posed_;
   }

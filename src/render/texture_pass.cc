@@ -111,8 +111,8 @@ void DecodeTextures(const Scene& scene, const std::vector<bool>& material_visibl
     if (i == images.size()) return beside.run();
     const auto for_each_role = [&](auto&& body) {
       for (std::size_t t = 0; t < needed.size(); ++t) {
-        const bool missing = needed[t] && textures.entries[t].data == nullptr;
-        if (missing && plan.textures[t].image == images[i]) body(plan.textures[t], textures.entries[t]);
+        if (!needed[t] || plan.textures[t].image != images[i]) continue;  // others are being made
+        if (textures.entries[t].data == nullptr) body(plan.textures[t], textures.entries[t]);
       }
     };
     const ImageSource& source = *scene.images[std::size_t(images[i])].source;

@@ -28,6 +28,8 @@ struct Shape {
   bool needs_tangents = false;
   int tex_coord = 0;  // the UV set of the normal texture
   bool IsDeformed() const { return morphed || joints != nullptr; }
+  bool NeedsNormals() const { return needs_tangents && primitive->normals.empty(); }
+  bool IsCopy() const { return IsDeformed() || NeedsNormals(); }  // flat normals want vertices of their own
 };
 
 // What Pose and PosedBounds have in common: which geometries there are and where each is drawn. Its shapes point into
@@ -165,21 +167,17 @@ std::vector<std::vector<std::size_t>> DrawablesOfShapes(const Plan& plan) {
   return drawables;
 }
 
-void Complete(int tex_coord, Primitive& primitive) {
-  if (primitive.normals.empty()) MakeFlat(primitive);
-  MakeTangents(tex_coord, primitive);
-}
-
 // The deformed, completed copy of a shape's primitive. Tangents are made between morph and skin: morphing moves the
 // surface under its UVs, skinning carries tangents along.
-Primitive Deformed(const Shape& shape) {
+Primitive BuildCopy(const Shape& shape) {
   Primitive copy = CopyWithoutDeformers(*shape.primitive);
   if (shape.morphed) ApplyMorph(*shape.primitive, *shape.weights, copy);
   if (shape.joints != nullptr && shape.needs_tangents) {
     copy.joints = shape.primitive->joints;  // the vertices are about to be split
     copy.weights = shape.primitive->weights;
   }
-  if (shape.needs_tangents) Complete(shape.tex_coord, copy);
+  if (shape.NeedsNormals()) MakeFlat(copy);
+  if (shape.needs_tangents) MakeTangents(shape.tex_coord, copy);
   if (shape.joints != nullptr) {
     ApplySkin(*shape.joints, shape.needs_tangents ? copy : *shape.primitive, shape.where, copy);
   }
@@ -227,26 +225,31 @@ PosedScene PoseIncomplete(const Scene& scene, const PoseSettings& settings) {
     geometries[i] = plan.shapes[i].primitive;
     posed.skinned |= plan.shapes[i].joints != nullptr;
     posed.morphed |= plan.shapes[i].morphed;
-    if (!plan.shapes[i].IsDeformed()) continue;
+    if (!plan.shapes[i].IsCopy()) continue;
     geometries[i] = &posed.owned.emplace_back();
     copies.emplace_back(i, &posed.owned.back());
   }
   ParallelFor(copies.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) *copies[i].second = Deformed(plan.shapes[copies[i].first]);
+    for (std::size_t i = begin; i < end; ++i) *copies[i].second = BuildCopy(plan.shapes[copies[i].first]);
   });
 
+  // Unless they are deformed, the vertices of the file count, as they do in PosedBounds.
+  const auto positions_of = [&](std::size_t i) -> const std::vector<glm::vec3>& {
+    const Shape& shape = plan.shapes[i];
+    return (shape.IsDeformed() ? geometries[i] : shape.primitive)->positions;
+  };
   std::vector<Bounds> local(plan.shapes.size());
   ParallelFor(plan.shapes.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) local[i] = BoundsOf(geometries[i]->positions);
+    for (std::size_t i = begin; i < end; ++i) local[i] = BoundsOf(positions_of(i));
   });
   const std::vector<std::vector<std::size_t>> drawables_of_shape = DrawablesOfShapes(plan);
   for (std::size_t i = 0; i < plan.shapes.size(); ++i) {
     for (const std::size_t drawable : drawables_of_shape[i]) {
       plan.drawables[drawable].geometry = geometries[i];
       plan.drawables[drawable].bounds_mesh = local[i];
-      AddPlaced(geometries[i]->positions, local[i], plan.drawables[drawable].world_from_mesh, posed.bounds);
+      AddPlaced(positions_of(i), local[i], plan.drawables[drawable].world_from_mesh, posed.bounds);
     }
-    if (plan.shapes[i].needs_tangents && !plan.shapes[i].IsDeformed()) {
+    if (plan.shapes[i].needs_tangents && !plan.shapes[i].IsCopy()) {
       posed.incomplete.push_back({drawables_of_shape[i], plan.shapes[i].tex_coord});
     }
   }
@@ -257,7 +260,7 @@ PosedScene PoseIncomplete(const Scene& scene, const PoseSettings& settings) {
 
 Primitive Completed(const Primitive& geometry, int tex_coord) {
   Primitive copy = CopyWithoutDeformers(geometry);
-  Complete(tex_coord, copy);
+  MakeTangents(tex_coord, copy);
   return copy;
 }
 

@@ -72,11 +72,12 @@ struct PosedScene {
 // their rules.
 PosedScene Pose(const Scene& scene, const PoseSettings& settings);
 
-// As Pose(), but geometry that is not deformed is the scene's own, and `incomplete` says where it lacks what Pose()
-// promises. All but shading can do without.
+// As Pose(), but geometry that has normals and is not deformed is the scene's own, and `incomplete` says where it lacks
+// the tangents that Pose() promises. All but shading can do without.
 PosedScene PoseIncomplete(const Scene& scene, const PoseSettings& settings);
 
-// What Pose() draws in place of incomplete geometry: the same triangles in the same order, with normals and tangents.
+// What Pose() draws in place of incomplete geometry, which has normals: the same triangles in the same order, with
+// tangents.
 // Thread-safe.
 Primitive Completed(const Primitive& geometry, int tex_coord);
 

@@ -191,13 +191,13 @@ void TextureBuilder::PlaceCells() {
   constexpr int kMost = DarkCells::kMaxSide;
   const auto fits = [&](int l) { return texture_.level_width[l] <= kMost && texture_.level_height[l] <= kMost; };
   for (cell_level_ = 0; cell_level_ < texture_.levels && !fits(cell_level_);) ++cell_level_;
-  if (cell_level_ == texture_.levels || cell_level_ < 2) return;  // samples reach farther than such small cells
-  DarkCells& dark = texture_.dark;
-  dark.width = texture_.level_width[cell_level_], dark.height = texture_.level_height[cell_level_];
-  dark.lit.resize(std::size_t(dark.width) * std::size_t(dark.height), 0);
+  if (cell_level_ == texture_.levels) return;
+  const int width = texture_.level_width[cell_level_], height = texture_.level_height[cell_level_];
   // Less than a cell, so that no rounding of a place within it matters.
-  dark.reach = 0.9f * std::min(static_cast<float>(texture_.level_width[0]) / static_cast<float>(dark.width),
-                               static_cast<float>(texture_.level_height[0]) / static_cast<float>(dark.height));
+  const float reach = 0.9f * std::min(static_cast<float>(texture_.level_width[0]) / static_cast<float>(width),
+                                      static_cast<float>(texture_.level_height[0]) / static_cast<float>(height));
+  if (reach < 3.0f) return;  // samples reach farther
+  texture_.dark = {width, height, reach, std::vector<std::int32_t>(std::size_t(width) * std::size_t(height), 0)};
 }
 
 void TextureBuilder::FindLitCells(int y) {

@@ -223,8 +223,9 @@ HWY_NOINLINE void MakeTextureTaps(const TextureSlot& slot, const Vec2<T>& uv_in,
   const MaskOf<T> yes(true), no(false);
   const T all(kWeightSum<T>);
   out.uv = uv;
+  const T rounding = Max(Abs(uv.x), Abs(uv.y)) * T(2e-7f * float(data.level_width[0] + data.level_height[0]));
   const auto read_level_0 = [&](MaskOf<T> linear) HWY_ATTR {
-    out.reach = T(1.5f);  // a tap's texels lie within one texel and a half
+    out.reach = T(1.5f) + rounding;  // a tap's texels lie within one texel and a half
     out.count = 1;
     out.of_lane = IntOf<T>(1);
     out.two_levels = false;
@@ -242,7 +243,7 @@ HWY_NOINLINE void MakeTextureTaps(const TextureSlot& slot, const Vec2<T>& uv_in,
                            (minified & (sampler.minification == Filter::Linear ? yes : no));
   if (sampler.mip == MipFilter::None) return read_level_0(linear);
   // The coarser level's texels are up to twice as wide as a tap.
-  out.reach = footprint.length * T(0.5f) + Max(footprint.width, T(1.0f)) * T(3.0f);
+  out.reach = footprint.length * T(0.5f) + Max(footprint.width, T(1.0f)) * T(3.0f) + rounding;
   const bool nearest_level = sampler.mip == MipFilter::Nearest;
   const T base = Floor(nearest_level ? lod + T(0.5f) : lod);
   const T blend = nearest_level ? T(0.0f) : lod - base;  // from the finer level to the coarser
@@ -287,8 +288,7 @@ HWY_INLINE bool IsDark(const TextureSlot& slot, const TextureTaps<T>& taps) {
   return All(in_dark & MaskOf<T>(taps.reach <= T(dark.reach)));
 }
 
-// Asks for the memory of texels that will be read soon, for one lane in `kStep`. (Inlined always: GCC drops calls of
-// functions that do nothing else.)
+// Asks for the memory of texels that will be read soon, for one lane in `kStep`. (Inlined, or GCC drops it.)
 template <int kStep, class T>
 HWY_INLINE void PrefetchRow(const TextureData& data, const IndexList<T>& texel) {
   const std::ptrdiff_t texel_bytes = data.TexelBytes();
@@ -402,7 +402,7 @@ HWY_INLINE void SumTexelsInLanes(const TextureData* const* textures, const Textu
 }
 #endif
 
-// Sums the texels at `taps` of kCount textures that all have those taps; a sparse one alone. (Not inlined: it is large.)
+// Sums the texels at `taps` of kCount textures that all have those taps; a sparse one alone. (Large, so a call.)
 template <int kCount, class T>
 HWY_NOINLINE void SumTexels(const TextureData* const* textures, const TextureTaps<T>& taps, TexelSums<T>* sums) {
   if constexpr (kInLanes<T>) {

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <set>
+
 #include "facet/error.h"
 #include "scene/topology.h"
 #include "scene_helpers.h"
@@ -132,34 +135,49 @@ TEST(Pose, LeavesCompletionToOthers) {
   Primitive strip;
   strip.topology = Topology::TriangleStrip;
   strip.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 1}, {0, 2, 0}};
+  strip.normals.assign(5, {0, 0, 1});
   strip.tex_coords = {{}, {{0, 0}, {1, 0}, {0, 1}, {0.5f, 1}, {0, 0.3f}}};
   strip.material = 0;
   Scene scene = SceneOf(strip);
   AddNormalMap(scene);
   scene.materials[0].normal_texture.tex_coord = 1;
-  Primitive morphed = strip, plain = strip;
+  Primitive morphed = strip, plain = strip, flat = strip;
   morphed.targets.resize(1);
   morphed.targets[0].positions.assign(5, {0, 0, 2});
   plain.material = -1;
   scene.meshes[0].primitives.push_back(morphed);
   scene.meshes[0].primitives.push_back(plain);
+  flat.normals.clear();
+  flat.topology = Topology::Triangles;
+  flat.indices = {0, 1, 2};  // and no others, which normals of triangles' own lose
+  scene.meshes[0].primitives.push_back(flat);
   scene.meshes[0].weights = {0.5f};
   scene.nodes.push_back(scene.nodes[0]);
 
   const PosedScene posed = PoseIncomplete(scene, {}), whole = Pose(scene, {});
-  ASSERT_EQ(posed.drawables.size(), 6u);
-  ASSERT_EQ(posed.incomplete.size(), 1u) << "not what is deformed, nor what has no normal map";
-  EXPECT_EQ(posed.incomplete[0].drawables, (std::vector<std::size_t>{0, 3}));
+  ASSERT_EQ(posed.drawables.size(), 8u);
+  ASSERT_EQ(posed.incomplete.size(), 1u) << "not what is deformed, or has no normals or no normal map";
+  EXPECT_EQ(posed.incomplete[0].drawables, (std::vector<std::size_t>{0, 4}));
   EXPECT_EQ(posed.incomplete[0].tex_coord, 1);
   EXPECT_EQ(posed.drawables[0].geometry, &scene.meshes[0].primitives[0]);
-  EXPECT_EQ(posed.drawables[3].geometry, &scene.meshes[0].primitives[0]);
+  EXPECT_EQ(posed.drawables[4].geometry, &scene.meshes[0].primitives[0]);
   EXPECT_EQ(posed.drawables[1].geometry->tangents, whole.drawables[1].geometry->tangents);
   EXPECT_EQ(posed.drawables[1].geometry->positions[0].z, 1.0f);
   EXPECT_FALSE(posed.drawables[1].geometry->tangents.empty());
   EXPECT_EQ(posed.bounds.high, whole.bounds.high);
+  // The same places, which decide how the scene is framed.
+  for (std::size_t d = 0; d < posed.drawables.size(); ++d) {
+    const auto places = [&](const PosedScene& p) {
+      std::set<std::array<float, 3>> set;
+      for (const glm::vec3& v : p.drawables[d].geometry->positions) set.insert({v.x, v.y, v.z});
+      return set;
+    };
+    EXPECT_EQ(places(posed), places(whole)) << d;
+  }
+  EXPECT_EQ(posed.drawables[3].geometry->positions.size(), 3u);
 
   EXPECT_TRUE(whole.incomplete.empty());
-  EXPECT_EQ(whole.drawables[0].geometry, whole.drawables[3].geometry) << "made once";
+  EXPECT_EQ(whole.drawables[0].geometry, whole.drawables[4].geometry) << "made once";
   const Primitive& expected = *whole.drawables[0].geometry;
   const Primitive completed = Completed(strip, 1);
   EXPECT_EQ(completed.tangents, expected.tangents);
