@@ -100,7 +100,9 @@ std::vector<Attributes> Interpolate(const FrameView& view, const Drawable& place
   const int anchor_x = int(std::floor(at[0].x)) & ~63, anchor_y = int(std::floor(at[0].y)) & ~63;
   const FrameDrawable drawable = MakeFrameDrawable(view, placed);
   std::vector<float> setup(SetupLayout::kStride, -7.0f);
-  const TriangleRecord* const records[] = {&record};
+  TriangleRecord only = record;
+  only.drawable = 0;
+  const TriangleRecord* const records[] = {&only};
   SetUpTriangles({&view, &drawable, &material, anchor_x, anchor_y, records, 1, setup.data()});
   const std::size_t padded = (at.size() + 15) / 16 * 16;
   std::vector<std::int32_t> setups(padded, 0);
