@@ -46,7 +46,7 @@ void* AllocatePages(std::size_t bytes) {
   return memory;
 }
 
-// Of both kinds. (Clang 14 runs both of two forms of operator delete, whichever is asked for.)
+// `bytes` says which kind it is.
 void FreePages(void* memory, [[maybe_unused]] std::size_t bytes) {
 #ifdef __linux__
   if (IsLarge(bytes)) {
