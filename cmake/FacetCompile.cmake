@@ -15,6 +15,7 @@ endif()
 set(FACET_HIGHWAY_DEFINITIONS
   HWY_COMPILE_ALL_ATTAINABLE                     # the scalar target too, everywhere
   HWY_BROKEN_EMU128=1                            # scalar code means one lane, with every compiler
+  HWY_IS_DEBUG_BUILD=0                           # its assertions need its library, which nobody else does
   HWY_DISABLED_TARGETS=HWY_SSSE3|HWY_SVE|HWY_SVE2|HWY_SVE_256|HWY_SVE2_128${FACET_DISABLED_TARGETS})
 
 add_library(facet_arithmetic INTERFACE)
@@ -27,7 +28,7 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(aarch64|arm64)")
 endif()
 target_compile_features(facet_arithmetic INTERFACE cxx_std_20)
 if(FACET_SCALAR_ONLY)
-  target_compile_definitions(facet_arithmetic INTERFACE HWY_COMPILE_ONLY_SCALAR FACET_SCALAR_ONLY)
+  target_compile_definitions(facet_arithmetic INTERFACE HWY_COMPILE_ONLY_SCALAR HWY_IS_DEBUG_BUILD=0 FACET_SCALAR_ONLY)
 else()
   target_compile_definitions(facet_arithmetic INTERFACE ${FACET_HIGHWAY_DEFINITIONS})
 endif()

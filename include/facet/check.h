@@ -10,6 +10,7 @@
 
 #include "facet/compare.h"
 #include "facet/digest.h"
+#include "facet/load.h"
 
 namespace facet {
 
@@ -29,6 +30,11 @@ struct CheckOptions {
   std::string only;       // an ECMAScript regular expression that an entry's name must contain; empty: all entries
   int threads = 0;        // 0: one per core. A bound on all entries together
   bool pictures = false;  // keep the pictures of entries that were not equal, for reports
+  bool strict = false;    // entries with warnings fail
+  // Of every entry's scene. `memory_limit` is for all entries together, and for what is rendered. `root`: the folder that
+  // all files named by the manifest, and by its scenes, must lie in, those that an update writes too; empty: for the
+  // manifest its own folder, for each scene the scene's.
+  LoadOptions load;
 };
 
 // What came of one entry.
@@ -61,8 +67,8 @@ struct CheckReport {
 // case, which covers developing. An error in one entry ends up in its verdict and stops no other. Apart from the times
 // the report does not depend on the number of threads. With options.update the golden pictures and the manifest are
 // rewritten where they do not hold, each file whole or not at all; entries that cannot be rendered stay as they are.
-// Throws Error where nothing could be run: NotFound, InvalidInput (no JSON, or no manifest), InvalidUsage (a bad
-// option, or no entry is selected), OutputFailed (the manifest cannot be rewritten).
+// Throws Error where nothing could be run: NotFound, InvalidInput (no JSON, no manifest, or one without entries),
+// InvalidUsage (a bad option, or no entry is selected), OutputFailed (the manifest cannot be rewritten).
 CheckReport CheckManifest(const std::filesystem::path& manifest, const CheckOptions& options = {});
 
 // The report as one HTML file that needs no other: the table of all entries, and the pictures that were kept, side by

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -16,6 +17,7 @@ inline constexpr double kDefaultPixelsPerDegree = 3840.0 * std::numbers::pi / 18
 
 struct CompareOptions {
   double pixels_per_degree = kDefaultPixelsPerDegree;  // of the eye looking at the picture; 1 to 1000
+  std::uint64_t memory_limit = 0;  // bytes, besides the two pictures; 0: three quarters of what the machine has
 };
 
 // What CompareImages finds. `a` is the reference, `b` is the test.

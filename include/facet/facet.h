@@ -10,6 +10,8 @@
 #include "facet/image.h"
 #include "facet/load.h"
 #include "facet/render.h"
+#include "facet/report.h"
 #include "facet/scene.h"
+#include "facet/shader.h"
 #include "facet/verify.h"
 #include "facet/version.h"

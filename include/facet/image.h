@@ -32,6 +32,7 @@ struct Image {
   ChannelType type = ChannelType::U8;
   Encoding encoding = Encoding::Srgb;
   std::vector<std::byte> bytes;  // width * height * channels * SizeOf(type), native byte order
+  std::string damage = {};       // what was broken in the file without touching its pixels, one line; mostly empty
 
   std::size_t PixelCount() const { return std::size_t(width) * std::size_t(height); }
   template <class T>

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -27,6 +28,8 @@ struct LoadReport {
   std::vector<ExtensionUse> extensions;        // sorted by name
   std::vector<std::string> warnings;           // one line each: "WHERE: WHAT"; what was ignored or repaired
   std::size_t file_bytes = 0;                  // all files that were read
+  // The scene's own file, and those that it names, of images also where they are not read yet.
+  std::vector<std::filesystem::path> files;
 };
 
 struct LoadedScene {
@@ -35,6 +38,17 @@ struct LoadedScene {
 };
 
 struct LoadOptions {
+  // Bytes that loading may take, all in all: the files, their JSON while it is read, decoded geometry. 0: three quarters
+  // of what the machine, or the control group of the process, has. What needs more is refused before it is allocated,
+  // with Error(OutOfMemory).
+  std::uint64_t memory_limit = 0;
+  // The folder that all files named by the scene must lie in; empty: the folder of the scene's own file. Links that lead
+  // out of it count as outside. "/" allows all.
+  std::filesystem::path root;
+  // Files of 64 MiB and more are mapped and not read: what is not used of them takes no time and no memory. They must
+  // stay as they are for as long as the scene is in use: a mapped file that is cut short meanwhile ends the process with
+  // SIGBUS. False: all files are read.
+  bool map_files = true;
   // The most memory that decoded geometry of one file may take; beyond it Error(OutOfMemory).
   std::size_t max_geometry_bytes = std::size_t(8) << 30;
   // Load in spite of required extensions that facet does not have; each becomes a warning.
@@ -45,8 +59,9 @@ struct LoadOptions {
 // Throws Error: NotFound, InvalidInput, Unsupported (a required extension, by name), OutOfMemory.
 LoadedScene LoadGltf(const std::filesystem::path& path, const LoadOptions& options = {});
 
-// Loads a picture of any format that facet or OpenImageIO reads. Throws Error.
-Image LoadImage(const std::filesystem::path& path);
+// Loads an image of any format that facet or OpenImageIO reads. `memory_limit`: as in LoadOptions. Throws Error: NotFound,
+// InvalidInput, OutOfMemory, MissingModule.
+Image LoadImage(const std::filesystem::path& path, std::uint64_t memory_limit = 0);
 
 // A picture for EnvironmentSettings::source that is decoded and prepared only where the folder `cache` does not hold
 // what an earlier frame, of any program, prepared from a file of the same bytes with the same settings: the same frame,

@@ -31,8 +31,10 @@ struct AutoCamera {
 // eye = target + radius * (sin phi * sin theta, cos phi, sin phi * cos theta), +Y up.
 struct OrbitCamera {
   double theta = 0.0, phi = 1.5707963267948966;  // radians
-  std::optional<double> radius;                  // none, or not positive: the distance that frames the bounds
-  std::optional<glm::dvec3> target;              // none: the centre of the bounds
+  // None, or not positive: the distance that shows the whole scene from every side, and at every moment of the
+  // animation, so that turntables neither swell nor shrink.
+  std::optional<double> radius;
+  std::optional<glm::dvec3> target;              // none: the centre of the bounds (without a radius, of all those moments)
   std::optional<double> yfov;                    // radians; 45 degrees if none
 };
 
@@ -115,7 +117,7 @@ struct RenderSettings {
   int width = 1024;   // 1 to 16384
   int height = 1024;  // 1 to 16384
   int samples = 4;    // coverage samples per pixel: 1, 2, 4 or 8
-  int threads = 0;    // 0: one per core
+  int threads = 0;    // 0: one per core; at most 1024
   int max_anisotropy = 8;                    // 1 to 16
   MipFilter mip_filter = MipFilter::Linear;  // the most that samplers get
   TexelBits texels = TexelBits::Mixed;
@@ -125,9 +127,9 @@ struct RenderSettings {
   IrradianceMethod irradiance = IrradianceMethod::Convolution;
   TangentSource tangents = TangentSource::File;
   int tile_size = 32;      // 8, 16, 32 or 64: never changes the picture
-  // Bytes that the film (or a band of it), the scene's geometry, the frame's textures and its environment may take
-  // together; 0: no limit. What is known to need more is refused before it is allocated. The rest (posed copies, lists,
-  // what is being decoded, what a Renderer keeps of earlier frames) is not counted.
+  // Bytes that the frame may take with all that grows with the scene or the picture: the scene itself, posed copies, lists
+  // of triangles, textures and what is decoded for them, the environment, the film. What needs more is refused before it
+  // is allocated, with Error(OutOfMemory). 0: three quarters of what the machine, or the process's control group, has.
   std::uint64_t memory_limit = 0;
   int scene = -1;          // -1: the default one
   int animation = -1;      // -1: rest pose
@@ -183,6 +185,8 @@ struct RenderStats {
   int environment_size = 0;              // texels along its sharpest map
   std::vector<TextureStats> textures;
   std::uint64_t non_finite_fragments = 0;  // replaced by black, see docs/conventions.md
+  FreeCamera camera;                     // in use, whatever chose it; its lens is fitted to the picture
+  double camera_target_distance = 1.0;   // of the point that an AutoCamera or OrbitCamera looks at; 1 of others
   std::string target;                    // instruction set: SCALAR, SSE4, AVX2 or AVX3
   int threads = 0;
   std::vector<std::string> left_out;     // what the frame did without, one line each: "WHAT: WHY"

@@ -13,7 +13,8 @@
 namespace facet {
 
 struct VerifySettings {
-  // The picture that lit the scene. None: the file of the name that the picture gives, in the scene's folder.
+  // The picture that lit the scene. None: the file of the name that the picture gives, in the scene's folder (or, where
+  // load.root is given, anywhere within that).
   std::optional<std::filesystem::path> environment;
   int threads = 0;  // 0: one per core
   LoadOptions load;
@@ -37,10 +38,10 @@ struct Verification {
   bool Equal() const { return intact && film_equal && differing_pixels == 0; }
 };
 
-// Renders `scene` with the settings that stand in `png`, a picture that facet wrote, and compares.
+// Renders `scene` with the settings that stand in `picture`, a PNG or EXR file that facet wrote, and compares.
 // Throws Error: NotFound; InvalidInput for a picture that facet did not write; what LoadGltf, LoadImage and Render
 // throw.
-Verification VerifyPicture(const std::filesystem::path& png, const std::filesystem::path& scene,
+Verification VerifyPicture(const std::filesystem::path& picture, const std::filesystem::path& scene,
                            const VerifySettings& settings = {});
 
 }  // namespace facet

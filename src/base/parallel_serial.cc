@@ -6,7 +6,8 @@
 
 namespace facet {
 
-void RunWithThreads(int /*threads*/, const std::function<void()>& body) {
+void RunWithThreads(int threads, const std::function<void()>& body) {
+  CheckThreads(threads);
   const FloatEnvironment pinned;
   body();
 }

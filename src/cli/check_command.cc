@@ -2,16 +2,15 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <span>
 #include <string>
 #include <system_error>
 #include <utility>
+#include <vector>
 
+#include "base/output_file.h"
 #include "cli/console.h"
-#include "cli/output_path.h"
 #include "facet/error.h"
 #include "facet/version.h"
-#include "image/codec.h"
 #include "report/markup.h"
 
 namespace facet::cli {
@@ -79,13 +78,9 @@ std::string Json(const CheckReport& report) {
   return json.dump(2, ' ', false, Ordered::error_handler_t::replace) + "\n";
 }
 
-void WriteText(const std::filesystem::path& path, const std::string& text) {
-  WriteFileWhole(path, std::as_bytes(std::span(text)));
-}
-
 void WritePictures(const CheckReport& report, const std::filesystem::path& folder) {
   const auto write = [&](const std::string& name, const std::vector<std::byte>& png) {
-    if (!png.empty()) WriteFileWhole(folder / name, png);
+    if (!png.empty()) WriteFile(folder / name, png, OutputFile::Links::Refuse);
   };
   for (const CheckedEntry& entry : report.entries) {
     if (entry.verdict != Verdict::Failed) continue;
@@ -102,8 +97,12 @@ int RunCheck(const CheckCommandOptions& options) {
     std::filesystem::create_directories(*options.output, failure);
     if (failure) throw Error(ErrorCode::OutputFailed, failure.message(), options.output->string());
   }
-  if (options.html) CheckWritable(*options.html);
-  if (options.junit) CheckWritable(*options.junit);
+  std::vector<std::filesystem::path> outputs;
+  for (const auto& report : {options.html, options.junit}) {
+    if (report) outputs.push_back(*report);
+  }
+  for (const std::filesystem::path& output : outputs) CheckWritable(output);
+  RefuseOverwriting(outputs, {options.manifest});
   CheckOptions check = options.check;
   check.pictures = options.html || options.output;
   const CheckReport report = CheckManifest(options.manifest, check);
@@ -114,8 +113,8 @@ int RunCheck(const CheckCommandOptions& options) {
     if (entry.verdict == Verdict::Error) PrintError(entry.place + ": " + entry.message);
   }
   if (options.output) WritePictures(report, *options.output);
-  if (options.html) WriteText(*options.html, CheckHtml(report));
-  if (options.junit) WriteText(*options.junit, JUnitXml(report));
+  if (options.html) WriteFile(*options.html, CheckHtml(report));
+  if (options.junit) WriteFile(*options.junit, JUnitXml(report));
   if (!report.problems.empty() || report.Count(Verdict::Error) > 0) return kFailed;
   return report.Count(Verdict::Failed) > 0 ? kDiffers : kPassed;
 }

@@ -25,6 +25,14 @@ void PrintNote(std::string_view text) { PrintLine("facet: note: ", text); }
 
 void PrintWarning(std::string_view text) { PrintLine("facet: warning: ", text); }
 
+void PrintWarnings(const std::vector<std::string>& warnings, bool strict, const std::string& where) {
+  for (const std::string& warning : warnings) PrintWarning(warning);
+  if (!strict || warnings.empty()) return;
+  throw Error(ErrorCode::InvalidInput,
+              warnings.size() == 1 ? "there is a warning" : "there are " + std::to_string(warnings.size()) + " warnings",
+              where, "without --strict it would be used all the same");
+}
+
 void PrintOutput(std::string_view text) {
   if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
     throw Error(ErrorCode::OutputFailed, std::strerror(errno), "standard output");

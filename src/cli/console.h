@@ -1,7 +1,9 @@
 // What the program says, one line at a time, without control characters.
 #pragma once
 
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace facet::cli {
 
@@ -9,6 +11,10 @@ namespace facet::cli {
 void PrintError(std::string_view text);
 void PrintNote(std::string_view text);
 void PrintWarning(std::string_view text);
+
+// Prints warnings, one line each. `strict`: throws Error(InvalidInput) then where there were some; `where`: what they are
+// about.
+void PrintWarnings(const std::vector<std::string>& warnings, bool strict, const std::string& where);
 
 // Writes to standard output and flushes. Throws Error(OutputFailed) when that is closed or full.
 void PrintOutput(std::string_view text);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/output_file.h"
 #include "base/printable.h"
 #include "cli/console.h"
 #include "cli/output_path.h"
@@ -20,7 +21,8 @@ namespace {
 constexpr int kWithin = 0, kDifferent = 1;
 
 ImageDifference Compare(const DiffOptions& options) {
-  const Image a = LoadImage(options.a), b = LoadImage(options.b);
+  const Image a = LoadImage(options.a, options.compare.memory_limit);
+  const Image b = LoadImage(options.b, options.compare.memory_limit);
   try {
     return CompareImages(a, b, options.compare);
   } catch (const Error& error) {  // which does not know the files
@@ -40,7 +42,8 @@ std::string Table(const DiffOptions& options, const ImageDifference& d, const st
   const std::size_t pixels = d.flip_map.PixelCount();
   std::string text = Printable(options.a.string()) + " and " + Printable(options.b.string()) + ": " +
                      std::to_string(d.width) + "x" + std::to_string(d.height) + ", " +
-                     (d.equal ? "equal" : "different") + (d.linear ? ", linear light" : "") + "\n";
+                     (d.equal ? "equal" : broken.empty() ? "within the thresholds" : "different") +
+                     (d.linear ? ", linear light" : "") + "\n";
   if (!d.equal) {
     text += row("largest difference",
                 ShortNumber(d.max_difference) + " at " + std::to_string(d.max_x) + "," + std::to_string(d.max_y));
@@ -97,6 +100,7 @@ int RunDiff(const DiffOptions& options) {
       throw Error(ErrorCode::InvalidUsage, "a heat map is for displays, not linear light", "-o", "write .png");
     }
     CheckWritable(*options.output);
+    RefuseOverwriting({*options.output}, {options.a, options.b});
   }
   const ImageDifference difference = Compare(options);
   const std::vector<std::string> broken = BrokenThresholds(difference, options.thresholds);

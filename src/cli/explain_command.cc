@@ -18,7 +18,7 @@ void RunExplain(const ExplainOptions& options) {
     explanation = Explain(inputs.loaded.scene, inputs.settings);
   });
   for (const auto& list : {warnings, explanation.first.warnings}) {
-    for (const std::string& warning : list) PrintWarning(warning);
+    PrintWarnings(list, options.strict, options.input.string());
   }
   const std::string scene = options.input.filename().string();
   PrintOutput(options.json ? ToJson(explanation, scene) : ToText(explanation, scene));

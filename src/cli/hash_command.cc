@@ -20,7 +20,7 @@ std::vector<Line> Digests(const HashOptions& options) {
   RenderStats stats;
   const Film film = Render(inputs.loaded.scene, inputs.settings, &stats);
   for (const auto& warnings : {inputs.loaded.report.warnings, stats.warnings}) {
-    for (const std::string& warning : warnings) PrintWarning(warning);
+    PrintWarnings(warnings, options.strict, options.input.string());
   }
   const SceneDigests scene = HashScene(inputs.loaded.scene);
   return {{"film", HashFilm(film)},

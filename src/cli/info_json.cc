@@ -3,6 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "cli/camera_text.h"
 #include "cli/info_summary.h"
 
 namespace facet::cli {
@@ -147,6 +148,7 @@ std::string InfoJson(const FileSummary& summary) {
   json["nodes"] = scene.nodes.size();
   json["geometry"] = ToJson(summary.geometry);
   json["default_scene"] = scene.scenes.empty() ? Json(nullptr) : Json(std::max(scene.default_scene, 0));
+  json["default_camera"] = CameraJson(summary.camera, summary.camera_target_distance);
   json["scenes"] = List(summary.scenes);
   json["meshes"] = List(summary.meshes);
   json["materials"] = List(summary.materials);

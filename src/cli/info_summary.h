@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "facet/load.h"
+#include "facet/render.h"
 
 namespace facet::cli {
 
@@ -76,6 +77,9 @@ struct FileSummary {
   std::vector<ImageSummary> images;
   std::vector<AnimationSummary> animations;
   std::vector<SceneSummary> scenes;
+  // That frames the default scene in a square picture, with the distance of what it looks at.
+  FreeCamera camera;
+  double camera_target_distance = 1.0;
 };
 
 // `file` must outlive the summary.

@@ -8,6 +8,7 @@
 
 #include "base/bytes_text.h"
 #include "base/printable.h"
+#include "cli/camera_text.h"
 #include "cli/info_summary.h"
 
 namespace facet::cli {
@@ -224,6 +225,7 @@ std::string InfoText(const FileSummary& summary) {
   Listing listing(text);
   listing.Add("scenes", summary.scenes, named);
   if (scene.scenes.size() > 1) text += "  default: " + std::to_string(std::max(scene.default_scene, 0)) + "\n";
+  text += "default camera: " + CameraText(summary.camera, summary.camera_target_distance) + "\n";
   listing.Add("meshes", summary.meshes, named);
   listing.Add("materials", summary.materials, [](const MaterialSummary& m) { return m.material->name; });
   listing.Add("images", summary.images, named);

@@ -12,6 +12,7 @@
 #include "cli/hash_command.h"
 #include "cli/info_command.h"
 #include "cli/options.h"
+#include "cli/process.h"
 #include "cli/render_command.h"
 #include "cli/report_command.h"
 #include "cli/verify_command.h"
@@ -30,7 +31,7 @@ int Guarded(const std::function<int()>& command) {
     PrintError(error.what());
     return ExitCode(error.code());
   } catch (const std::bad_alloc&) {
-    PrintError("out of memory; a smaller --size or fewer --threads need less");
+    PrintError("out of memory; a smaller --size or fewer --threads need less, or raise --memory-limit");
     return ExitCode(ErrorCode::OutOfMemory);
   } catch (const std::exception& error) {
     PrintError(std::string("a defect of facet: ") + error.what());
@@ -70,5 +71,10 @@ struct Run {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return Guarded([&] { return std::visit(Run{}, ParseCommandLine(argc, argv)); });
+  HandleSignals();
+  return Guarded([&] {
+    const Command command = ParseCommandLine(argc, argv);
+    LimitMemory(MemoryLimitOf(command));
+    return std::visit(Run{}, command);
+  });
 }

@@ -4,6 +4,7 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <memory>
+#include <string_view>
 #include <vector>
 
 #include "cli/usage.h"
@@ -65,29 +66,43 @@ void AddThreads(CLI::App& app, const std::string& group, int& threads) {
       [&](const std::string& text) { threads = ParseInteger("--threads", text, 0, 1024); });
 }
 
+// How a scene's file, or what names one, is loaded.
+void AddLoading(CLI::App& app, const std::string& group, LoadOptions& load, bool& strict) {
+  AddFlag(app, group, "--strict", "Warnings are failures", strict);
+  AddFlag(app, group, "--ignore-required-extensions",
+          "Go on in spite of extensions that the file\nrequires and facet does not have", load.ignore_required_extensions);
+  Add(app, group, "--root", "DIR",
+      "Where files that the input names must lie; / for\nanywhere [the folder of the file that names them]",
+      [&](const std::string& text) { load.root = text; });
+  app.add_flag_callback(
+         "--no-mmap", [&] { load.map_files = false; },
+         "Read large files whole: they may change while\nthey are in use")
+      ->group(group)
+      ->disable_flag_override();
+}
+
+void AddMemoryLimit(CLI::App& app, const std::string& group, std::uint64_t& limit) {
+  Add(app, group, "--memory-limit", "SIZE",
+      "Refuse what needs more, such as 512MiB or 2GiB;\nnever changes the picture [3/4 of the machine's]",
+      [&](const std::string& text) { limit = ParseBytes("--memory-limit", text); });
+}
+
 // The options that decide over the picture, and those that decide only how it is made.
-void AddRequest(CLI::App& app, RenderRequest& request, LoadOptions& load) {
+void AddRequest(CLI::App& app, RenderRequest& request, LoadOptions& load, bool& strict) {
   for (const RequestOption& option : RequestOptions()) {
     Add(app, option.group, "--" + std::string(option.name), option.value, option.description,
         [&request, name = option.name](const std::string& text) {
           SetOption(request, name, "--" + std::string(name), text);
         });
   }
-  AddFlag(app, "Scene", "--ignore-required-extensions",
-          "Render in spite of extensions that the file\nrequires and facet does not have",
-          load.ignore_required_extensions);
+  AddLoading(app, "Scene", load, strict);
   AddThreads(app, "Quality and speed", request.settings.threads);
   Add(app, "Quality and speed", "--tile-size", "8|16|32|64",
       "Pixels a side of the pieces that threads work on;\nnever changes the picture [32]",
       [&](const std::string& text) {
         request.settings.tile_size = 8 << ParseChoice("--tile-size", text, {"8", "16", "32", "64"});
       });
-}
-
-void AddMemoryLimit(CLI::App& app, RenderSettings& settings) {
-  Add(app, "Quality and speed", "--memory-limit", "SIZE",
-      "Refuse what is known to need more, such as 512MiB\nor 2GiB; never changes the picture [none]",
-      [&](const std::string& text) { settings.memory_limit = ParseBytes("--memory-limit", text); });
+  AddMemoryLimit(app, "Quality and speed", load.memory_limit);
 }
 
 void AddBound(CLI::App& app, RenderOptions& options) {
@@ -157,13 +172,12 @@ CLI::App& AddRender(CLI::App& program, RenderOptions& options) {
   Add(app, "Output", "-o,--output", "FILE", "Picture: .png, .exr, .hdr, .tif, .jpg, .webp ...",
       [&](const std::string& text) { options.output = text; })
       ->required();
-  AddRequest(app, options.request, options.load);
+  AddRequest(app, options.request, options.load, options.strict);
   Add(app, "Quality and speed", "--cache", "DIR|none",
       "Keep prepared environments in DIR, and take them\nfrom there; never changes the picture\n"
       "[$FACET_CACHE, or none]",
       [&](const std::string& text) { options.cache = text == "none" ? path() : path(text); })
       ->envname("FACET_CACHE");
-  AddMemoryLimit(app, options.request.settings);
   AddBound(app, options);
   AddMessages(app, options);
   page.End("Messages");
@@ -171,8 +185,11 @@ CLI::App& AddRender(CLI::App& program, RenderOptions& options) {
 }
 
 CLI::App& AddInfo(CLI::App& program, InfoOptions& options) {
-  CommandPage page(program, "info", "Say what is in a file and what facet makes of it", "IN [--json]", kExitCodes);
+  CommandPage page(program, "info", "Say what is in a file and what facet makes of it", "IN [OPTIONS]", kExitCodes);
   AddScene(page.app(), options.input);
+  options.load.ignore_required_extensions = true;  // whoever asks what is in a file wants to be told just that
+  AddLoading(page.app(), "Options", options.load, options.strict);
+  AddMemoryLimit(page.app(), "Options", options.load.memory_limit);
   AddFlag(page.app(), "Options", "--json", "As JSON with stable keys", options.json);
   page.End("Options");
   return page.app();
@@ -183,7 +200,7 @@ CLI::App& AddExplain(CLI::App& program, ExplainOptions& options) {
                    std::string("The options are those of render.\n\n") + kExitCodes);
   CLI::App& app = page.app();
   AddScene(app, options.input);
-  AddRequest(app, options.request, options.load);
+  AddRequest(app, options.request, options.load, options.strict);
   AddFlag(app, "Messages", "--json", "As JSON with stable keys", options.json);
   page.End("Messages");
   return app;
@@ -194,7 +211,7 @@ CLI::App& AddHash(CLI::App& program, HashOptions& options) {
                    "IN [OPTIONS]", std::string("The options are those of render.\n\n") + kExitCodes);
   CLI::App& app = page.app();
   AddScene(app, options.input);
-  AddRequest(app, options.request, options.load);
+  AddRequest(app, options.request, options.load, options.strict);
   AddFlag(app, "Messages", "--json", "As JSON with stable keys", options.json);
   page.End("Messages");
   return app;
@@ -204,13 +221,13 @@ CLI::App& AddVerify(CLI::App& program, VerifyOptions& options) {
   CommandPage page(program, "verify", "Render a picture's scene again and say whether it is equal",
                    "PICTURE IN [OPTIONS]", kComparisonExitCodes);
   CLI::App& app = page.app();
-  AddPath(app, "PICTURE", "A PNG that facet wrote: its settings stand in it", options.picture);
+  AddPath(app, "PICTURE", "A PNG or EXR that facet wrote: its settings stand in\nit", options.picture);
   AddScene(app, options.input);
   Add(app, "Options", "--environment", "FILE",
       "The picture that lit the scene\n[the file of that name in the scene's folder]",
       [&](const std::string& text) { options.environment = text; });
-  AddFlag(app, "Options", "--ignore-required-extensions", "As it was given to render",
-          options.ignore_required_extensions);
+  AddLoading(app, "Options", options.load, options.strict);
+  AddMemoryLimit(app, "Options", options.load.memory_limit);
   AddThreads(app, "Options", options.threads);
   AddFlag(app, "Options", "--json", "As JSON with stable keys", options.json);
   page.End("Options");
@@ -253,6 +270,7 @@ CLI::App& AddDiff(CLI::App& program, DiffOptions& options) {
       [&](const std::string& text) {
         options.compare.pixels_per_degree = ParseNumber("--pixels-per-degree", text, {1.0, 1000.0});
       });
+  AddMemoryLimit(app, "Options", options.compare.memory_limit);
   AddFlag(app, "Options", "--json", "As JSON with stable keys", options.json);
   page.End("Options");
   return app;
@@ -273,6 +291,8 @@ CLI::App& AddCheck(CLI::App& program, CheckCommandOptions& options) {
       [&](const std::string& text) { options.junit = text; });
   Add(app, group, "--output", "FOLDER", "Where pictures of failed entries are written [nowhere]",
       [&](const std::string& text) { options.output = text; });
+  AddLoading(app, group, options.check.load, options.check.strict);
+  AddMemoryLimit(app, group, options.check.load.memory_limit);
   AddThreads(app, group, options.check.threads);
   AddFlag(app, group, "--json", "As JSON instead of a table", options.json);
   page.End(group);
@@ -297,20 +317,40 @@ CLI::App& AddReport(CLI::App& program, ReportOptions& options) {
       [&](const std::string& text) {
         options.budget_seconds = ParseDuration("--budget", text, {1.0, 86400.0});
       });
-  AddRequest(app, options.request, options.load);
+  AddRequest(app, options.request, options.load, options.strict);
   AddFlag(app, "Messages", "-q,--quiet", "No progress; errors only", options.quiet);
   page.End("Messages");
   return app;
 }
 
+struct Limit {
+  std::uint64_t operator()(const TextRequest&) const { return 0; }
+  std::uint64_t operator()(const DiffOptions& options) const { return options.compare.memory_limit; }
+  std::uint64_t operator()(const CheckCommandOptions& options) const { return options.check.load.memory_limit; }
+  template <class Options>
+  std::uint64_t operator()(const Options& options) const {
+    return options.load.memory_limit;
+  }
+};
+
 }  // namespace
 
+std::uint64_t MemoryLimitOf(const Command& command) {
+  return std::visit(Limit(), command);
+}
+
 Command ParseCommandLine(int argc, const char* const* argv) {
+  // "facet help" and "facet help render", as people try first.
+  std::vector<const char*> arguments(argv, argv + argc);
+  if (argc > 1 && std::string_view(argv[1]) == "help") {
+    arguments.erase(arguments.begin() + 1);
+    arguments.push_back("--help");
+  }
   CLI::App program("facet renders glTF 2.0 scenes on the CPU: the same picture, to the last bit, on every machine.",
                    "facet");
   SetPage(program, "facet COMMAND [OPTIONS]");
   program.set_help_flag("-h,--help", "This page, or a command's: facet render --help");
-  program.set_version_flag("--version", std::string("facet ") + Version(), "The version of facet");
+  program.set_version_flag("-v,--version", std::string("facet ") + Version(), "The version of facet");
   program.footer(std::string(kRenderExamples) + "  facet info helmet.glb\n\n" + kExitCodes);
   program.require_subcommand(1);
 
@@ -332,7 +372,7 @@ Command ParseCommandLine(int argc, const char* const* argv) {
   const CLI::App& report_app = AddReport(program, report);
 
   try {
-    program.parse(argc, argv);
+    program.parse(static_cast<int>(arguments.size()), arguments.data());
   } catch (const CLI::CallForHelp&) {
     const std::vector<CLI::App*> chosen = program.get_subcommands();
     return TextRequest{(chosen.empty() ? program : *chosen.front()).help()};

@@ -1,6 +1,7 @@
 // The command line as values.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -23,6 +24,7 @@ struct RenderOptions {
   std::filesystem::path cache;  // of prepared environments; empty: none
   bool quiet = false;
   std::optional<bool> progress;  // none: when standard error is a terminal
+  bool strict = false;           // warnings are failures
   // With either bound the approximations are chosen from a report: a stored one, or one that is made first.
   Bound bound;
   std::optional<std::filesystem::path> report;
@@ -34,6 +36,8 @@ struct RenderOptions {
 // `facet info`.
 struct InfoOptions {
   std::filesystem::path input;
+  LoadOptions load;
+  bool strict = false;
   bool json = false;
 };
 
@@ -42,6 +46,7 @@ struct ExplainOptions {
   std::filesystem::path input;
   RenderRequest request;
   LoadOptions load;
+  bool strict = false;
   bool json = false;
 };
 
@@ -50,6 +55,7 @@ struct HashOptions {
   std::filesystem::path input;
   RenderRequest request;
   LoadOptions load;
+  bool strict = false;
   bool json = false;
 };
 
@@ -57,7 +63,8 @@ struct HashOptions {
 struct VerifyOptions {
   std::filesystem::path picture, input;
   std::optional<std::filesystem::path> environment;  // instead of the file beside the scene
-  bool ignore_required_extensions = false;
+  LoadOptions load;
+  bool strict = false;
   int threads = 0;
   bool json = false;
 };
@@ -68,6 +75,7 @@ struct ReportOptions {
   std::vector<std::filesystem::path> outputs;  // .html, .json or .csv
   RenderRequest request;
   LoadOptions load;
+  bool strict = false;
   double budget_seconds = 60.0;
   bool quiet = false;
 };
@@ -79,6 +87,9 @@ struct TextRequest {
 
 using Command = std::variant<TextRequest, RenderOptions, InfoOptions, ExplainOptions, HashOptions, VerifyOptions,
                              DiffOptions, CheckCommandOptions, ReportOptions>;
+
+// --memory-limit, in bytes; 0: none was given.
+std::uint64_t MemoryLimitOf(const Command& command);
 
 // Throws Error(InvalidUsage).
 Command ParseCommandLine(int argc, const char* const* argv);

@@ -17,11 +17,4 @@ struct OutputFormat {
 // The format that the extension of `path` names (letter case ignored). Throws Error(InvalidUsage).
 const OutputFormat& FormatOf(const std::filesystem::path& path);
 
-// True for a file that can be written in any order: no pipe and no device.
-bool IsPlainFile(const std::filesystem::path& path);
-
-// Throws Error(OutputFailed) when it can be seen already that `path` cannot be written: its folder does not exist or
-// is not writable, or there is a folder of that name.
-void CheckWritable(const std::filesystem::path& path);
-
 }  // namespace facet::cli

@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/memory_budget.h"
+#include "base/output_file.h"
 #include "base/parallel.h"
 #include "cli/console.h"
 #include "cli/output_path.h"
@@ -21,7 +23,6 @@
 #include "film/hash_film.h"
 #include "image/codec.h"
 #include "image/hash_image.h"
-#include "render/memory_budget.h"
 #include "report/provenance.h"
 
 namespace facet::cli {
@@ -56,6 +57,9 @@ void Reconcile(RenderOptions& options) {
     if (request.Given("tonemap") && request.display.tone_map != ToneMap::None && !options.quiet) {
       PrintWarning("--tonemap: " + kind + " files hold linear light, which is not tone-mapped");
     }
+    if (request.Given("bits") && !options.quiet) {
+      PrintWarning("--bits: " + kind + " files hold floats");
+    }
   }
   if (!format.alpha && request.settings.background != Background::Environment && !request.display.background_srgb) {
     if (request.Given("background")) {
@@ -67,9 +71,9 @@ void Reconcile(RenderOptions& options) {
   }
 }
 
-void PrintWarnings(const std::vector<std::string>& warnings, bool quiet) {
-  if (quiet) return;
-  for (const std::string& warning : warnings) PrintWarning(warning);
+// With --strict they are failures, also where they are not to be printed.
+void PrintWarnings(const std::vector<std::string>& warnings, const RenderOptions& options) {
+  if (!options.quiet || options.strict) cli::PrintWarnings(warnings, options.strict, options.input.string());
 }
 
 void PrintStats(const RenderOptions& options, const CommandStats& stats) {
@@ -82,7 +86,7 @@ void PrintStats(const RenderOptions& options, const CommandStats& stats) {
   if (*options.stats_json == "-") {
     PrintOutput(json);
   } else {
-    WriteFileWhole(*options.stats_json, std::as_bytes(std::span(json)));
+    WriteFile(*options.stats_json, json);
   }
 }
 
@@ -102,7 +106,7 @@ void DrawWithProgress(const RenderOptions& options, RenderSettings settings, con
 int BandRows(const RenderOptions& options) {
   constexpr std::uint64_t kLargestWhole = std::uint64_t{256} << 20, kBand = std::uint64_t{64} << 20;  // bytes of film
   const RenderSettings& settings = options.request.settings;
-  const std::uint64_t limit = settings.memory_limit > 0 ? settings.memory_limit : UINT64_MAX;
+  const std::uint64_t limit = settings.memory_limit > 0 ? settings.memory_limit : DefaultMemoryLimit();
   const std::uint64_t row_bytes = std::uint64_t(settings.width) * sizeof(glm::vec4);
   const bool large = row_bytes * std::uint64_t(settings.height) > std::min(kLargestWhole, limit / 4);
   const bool streamed = FormatOf(options.output).extension == ".png" && IsPlainFile(options.output);
@@ -119,8 +123,8 @@ void CheckMemory(const RenderOptions& options) {
                                  ? "make the picture smaller, or write it to a plain file, which is done piece by piece"
                                  : "make the picture smaller, or write it as .png, which is done piece by piece";
   MemoryBudget budget(settings.memory_limit);
-  budget.Add(pixels * sizeof(glm::vec4), "a film of " + size, remedy);
-  budget.Add(2 * pixels * 4 * SizeOf(request.type), "its developed pixels and the encoder's copy", remedy);
+  budget.Charge(pixels, sizeof(glm::vec4), "a film of " + size, {}, remedy);
+  budget.Charge(2 * pixels, 4 * SizeOf(request.type), "its developed pixels and the encoder's copy", {}, remedy);
 }
 
 // Loads, draws, develops and writes.
@@ -131,35 +135,33 @@ class Drawing {
 
   void InBands(int rows) {
     Load();
-    WriteFileWhole(options_.output, [&](const std::filesystem::path& temporary) {
-      const int width = settings_.width, height = settings_.height;
-      Provenance provenance = Origin();
-      Sha256 film_hash = BeginFilmHash(width, height), pixel_hash;
-      std::optional<PngStream> png;
-      const auto add = [&](const Film& band, int first_row) {
-        Stopwatch stage;
-        const Image image = Develop(band, request_.display, request_.type);
-        stats_.develop_seconds += stage.Lap();
-        if (first_row == 0) {
-          const Image form{width, height, image.channels, image.type, image.encoding, {}};
-          png.emplace(temporary, options_.output.string(), form, ToPngText(provenance));
-          pixel_hash = BeginImageHash(form);
-        }
-        png->Add(image, [&] {
-          film_hash.Add(std::as_bytes(std::span(band.pixels)));
-          pixel_hash.Add(std::span(image.bytes));
-        });
-        stats_.write_seconds += stage.Lap();
-      };
-      DrawWithProgress(options_, settings_, [&](const RenderSettings& settings) {
-        RenderBands(loaded_.scene, settings, rows, add, &stats_.render);
+    const int width = settings_.width, height = settings_.height;
+    Provenance provenance = Origin();
+    Sha256 film_hash = BeginFilmHash(width, height), pixel_hash;
+    std::optional<PngStream> png;
+    const auto add = [&](const Film& band, int first_row) {
+      Stopwatch stage;
+      const Image image = Develop(band, request_.display, request_.type);
+      stats_.develop_seconds += stage.Lap();
+      if (first_row == 0) {
+        const Image form{width, height, image.channels, image.type, image.encoding, {}};
+        png.emplace(options_.output, form, ToImageText(provenance));
+        pixel_hash = BeginImageHash(form);
+      }
+      png->Add(image, [&] {
+        film_hash.Add(std::as_bytes(std::span(band.pixels)));
+        pixel_hash.Add(std::span(image.bytes));
       });
-      stats_.render_seconds = stage_.Lap() - stats_.develop_seconds - stats_.write_seconds;
-      PrintWarnings(stats_.render.warnings, options_.quiet);
-      provenance.film = film_hash.Finish();
-      provenance.pixels = pixel_hash.Finish();
-      png->Finish(ToPngText(provenance));
+      stats_.write_seconds += stage.Lap();
+    };
+    DrawWithProgress(options_, settings_, [&](const RenderSettings& settings) {
+      RenderBands(loaded_.scene, settings, rows, add, &stats_.render);
     });
+    stats_.render_seconds = stage_.Lap() - stats_.develop_seconds - stats_.write_seconds;
+    PrintWarnings(stats_.render.warnings, options_);
+    provenance.film = film_hash.Finish();
+    provenance.pixels = pixel_hash.Finish();
+    png->Finish(ToImageText(provenance));
     stats_.write_seconds += stage_.Lap();
   }
 
@@ -170,15 +172,15 @@ class Drawing {
                      [&](const RenderSettings& settings) { film = Render(loaded_.scene, settings, &stats_.render); });
     settings_ = {}, loaded_ = {};  // the scene's memory is given back before the picture is encoded
     stats_.render_seconds = stage_.Lap();
-    PrintWarnings(stats_.render.warnings, options_.quiet);
+    PrintWarnings(stats_.render.warnings, options_);
 
     const Image image = Develop(film, request_.display, request_.type);
     stats_.develop_seconds = stage_.Lap();
-    WriteImageWithText(options_.output, image, [&] {
+    WriteImageWithText(options_.output, image, [&](const Image& stored) {
       Provenance provenance = Origin();
       provenance.film = HashFilm(film);
-      provenance.pixels = HashImage(image);
-      return ToPngText(provenance);
+      provenance.pixels = HashImage(stored);
+      return ToImageText(provenance);
     });
     stats_.write_seconds = stage_.Lap();
   }
@@ -188,9 +190,19 @@ class Drawing {
     loaded_ = LoadGltf(options_.input, options_.load);
     stats_.load_seconds = stage_.Lap();
     stats_.input_bytes = loaded_.report.file_bytes;
-    PrintWarnings(loaded_.report.warnings, options_.quiet);
+    PrintWarnings(loaded_.report.warnings, options_);
+    RefuseOverwritingInputs();
     settings_ = ResolveRequest(request_, loaded_.scene, {}, options_.cache);
     stats_.environment_seconds = stage_.Lap();
+  }
+
+  void RefuseOverwritingInputs() const {
+    std::vector<std::filesystem::path> outputs = {options_.output}, inputs = loaded_.report.files;
+    if (options_.stats_json && *options_.stats_json != "-") outputs.emplace_back(*options_.stats_json);
+    inputs.push_back(options_.input);
+    if (request_.environment) inputs.push_back(*request_.environment);
+    if (options_.report) inputs.push_back(*options_.report);
+    RefuseOverwriting(outputs, inputs);
   }
 
   // What the picture says of itself, less its digests.
@@ -211,16 +223,13 @@ class Drawing {
 };
 
 void RenderToFile(RenderOptions& options) {
+  MemoryBudget budget(options.load.memory_limit);
+  const MemoryBudget::Scope scope(budget);
+  options.request.settings.memory_limit = options.load.memory_limit;
   Reconcile(options);
   const int band_rows = BandRows(options);
   if (band_rows == 0) CheckMemory(options);
-  const std::uint64_t limit = options.request.settings.memory_limit;
-  if (limit > 0) options.load.max_geometry_bytes = std::min<std::uint64_t>(options.load.max_geometry_bytes, limit);
   if (options.bound.max_relative_rmse || options.bound.max_seconds) {
-    if (limit > 0 && !options.report) {
-      throw Error(ErrorCode::InvalidUsage, "measuring what a bound takes keeps several whole pictures", "--memory-limit",
-                  "give --report, made without the limit");
-    }
     const Choice choice = ChooseApproximations(options);
     if (!choice.kept) {
       PrintWarning(choice.why);

@@ -3,15 +3,14 @@
 #include <unistd.h>
 
 #include <cstdio>
-#include <span>
 #include <string>
 
+#include "base/input_file.h"
+#include "base/output_file.h"
 #include "base/printable.h"
 #include "cli/console.h"
-#include "cli/output_path.h"
 #include "facet/error.h"
 #include "facet/report.h"
-#include "image/codec.h"
 
 namespace facet::cli {
 namespace {
@@ -81,11 +80,12 @@ void RunReport(const ReportOptions& options) {
     WriterFor(output);
     CheckWritable(output);
   }
+  RefuseOverwriting(options.outputs, {options.input});
   const ErrorReport report =
       Measure(options.input, options.request, options.load, options.budget_seconds, options.quiet);
   for (const std::filesystem::path& output : options.outputs) {
     const std::string text = WriterFor(output)(report);
-    WriteFileWhole(output, std::as_bytes(std::span(text)));
+    WriteFile(output, text);
   }
   for (const std::string& warning : report.warnings) {
     if (!options.quiet) PrintWarning(warning);
@@ -99,9 +99,7 @@ void RunReport(const ReportOptions& options) {
 Choice ChooseApproximations(RenderOptions& options) {
   ErrorReport report;
   if (options.report) {
-    const std::vector<std::byte> bytes = ReadFileWhole(*options.report);
-    report = ReportFromJson(std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()),
-                            Printable(options.report->string()));
+    report = ReportFromJson(std::string(ReadFile(*options.report).Text()), Printable(options.report->string()));
     RefuseOtherSettings(report, options);
   } else {
     report =

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/printable.h"
+#include "cli/camera_text.h"
 #include "facet/version.h"
 #include "report/report_words.h"
 
@@ -91,6 +92,7 @@ std::string StatsTable(const CommandStats& stats) {
                       std::to_string(stats.height) + ", " + std::to_string(stats.samples) +
                       (stats.samples == 1 ? " sample" : " samples") + " a pixel, " + std::to_string(r.threads) +
                       (r.threads == 1 ? " thread, " : " threads, ") + Printable(r.target) + "\n";
+  table += "  camera: " + CameraText(r.camera, r.camera_target_distance) + "\n";
   for (const Time& time : Times(stats)) table += Row(time.label, Milliseconds(time.seconds), "ms");
   for (const Count& count : Counts(r)) table += Row(count.label, Grouped(count.value), "");
   table += Row("input files", Mebibytes(stats.input_bytes), "MiB");
@@ -113,6 +115,7 @@ std::string StatsJson(const CommandStats& stats) {
       {"samples", stats.samples},
       {"threads", stats.render.threads},
       {"target", stats.render.target},
+      {"camera", CameraJson(stats.render.camera, stats.render.camera_target_distance)},
       {"seconds", seconds},
       {"counts", counts},
       {"bytes",

@@ -26,7 +26,7 @@ struct CommandStats {
 std::string StatsTable(const CommandStats& stats);
 
 // One JSON object and a line end. Keys are stable: "input", "output", "width", "height", "samples", "threads",
-// "target", "facet", "seconds" {...}, "counts" {...}, "bytes" {...}, "warnings" [...].
+// "target", "camera" {...}, "facet", "seconds" {...}, "counts" {...}, "bytes" {...}, "warnings" [...].
 std::string StatsJson(const CommandStats& stats);
 
 }  // namespace facet::cli

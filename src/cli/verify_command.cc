@@ -51,10 +51,9 @@ std::string Json(const Verification& v) {
 }  // namespace
 
 int RunVerify(const VerifyOptions& options) {
-  VerifySettings settings{options.environment, options.threads, {}};
-  settings.load.ignore_required_extensions = options.ignore_required_extensions;
+  const VerifySettings settings{options.environment, options.threads, options.load};
   const Verification verification = VerifyPicture(options.picture, options.input, settings);
-  for (const std::string& warning : verification.warnings) PrintWarning(warning);
+  PrintWarnings(verification.warnings, options.strict, options.input.string());
   PrintOutput(options.json ? Json(verification) : Text(verification));
   return verification.Equal() ? 0 : 1;
 }

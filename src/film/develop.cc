@@ -2,13 +2,13 @@
 #include <cmath>
 #include <string>
 
-#include "base/check.h"
 #include "base/float_environment.h"
 #include "base/pages.h"
 #include "base/parallel.h"
 #include "facet/error.h"
 #include "facet/film.h"
 #include "film/develop_pixels.h"
+#include "film/hash_film.h"
 #include "math/elementary.h"
 
 namespace facet {
@@ -64,12 +64,10 @@ void SizeForTask(const DevelopTask& task, int width, int height, Image& image) {
 
 Image Develop(const Film& film, const DisplaySettings& settings, ChannelType type) {
   const FloatEnvironment pinned;
-  FACET_CHECK_OP(film.width, >=, 0);
-  FACET_CHECK_OP(film.height, >=, 0);
+  CheckFilm(film);
   const DevelopTask whole = MakeDevelopTask(settings, type);
   Image image;
   SizeForTask(whole, film.width, film.height, image);
-  FACET_CHECK_OP(film.pixels.size(), ==, image.PixelCount());
   constexpr std::size_t kPixelsPerTask = 16384;
   ParallelFor(image.PixelCount(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
     DevelopTask task = whole;

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "facet/digest.h"
+#include "facet/error.h"
 
 namespace facet {
 
@@ -13,7 +14,17 @@ Sha256 BeginFilmHash(int width, int height) {
   return hash;
 }
 
+void CheckFilm(const Film& film) {
+  const bool sized = film.width >= 0 && film.height >= 0;
+  if (sized && film.pixels.size() == std::size_t(film.width) * std::size_t(film.height)) return;
+  throw Error(ErrorCode::InvalidUsage,
+              "it has " + std::to_string(film.pixels.size()) + " pixels and says that it is " + std::to_string(film.width) +
+                  " x " + std::to_string(film.height),
+              "film");
+}
+
 Digest HashFilm(const Film& film) {
+  CheckFilm(film);
   static_assert(sizeof(glm::vec4) == 4 * sizeof(float));
   Sha256 hash = BeginFilmHash(film.width, film.height);
   hash.Add(std::as_bytes(std::span(film.pixels)));

@@ -8,4 +8,7 @@ namespace facet {
 // HashFilm()'s beginning.
 Sha256 BeginFilmHash(int width, int height);
 
+// Throws Error(InvalidUsage) unless a film has as many pixels as it says.
+void CheckFilm(const Film& film);
+
 }  // namespace facet

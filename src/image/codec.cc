@@ -1,60 +1,49 @@
 #include "image/codec.h"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
-#include <atomic>
-#include <cerrno>
-#include <cstring>
+#include <cstdint>
 #include <new>
+#include <string>
+#include <utility>
 
 #include "base/bytes_text.h"
 #include "base/float_environment.h"
+#include "base/input_file.h"
 #include "base/pages.h"
 #include "facet/error.h"
 #include "facet/load.h"
+#include "image/exr_text.h"
+#include "image/format.h"
 #include "image/jpeg.h"
 #include "image/limits.h"
 #include "image/oiio_loader.h"
 #include "image/png.h"
 #include "image/radiance.h"
+#include "image/webp.h"
 
 namespace facet {
 namespace {
 
-class File {
- public:
-  explicit File(int descriptor) : descriptor_(descriptor) {}
-  ~File() {
-    if (descriptor_ >= 0) ::close(descriptor_);
-  }
-  File(const File&) = delete;
-  File& operator=(const File&) = delete;
-  int get() const { return descriptor_; }
-  // False with errno set: some file systems report a full disk only here.
-  bool Close() {
-    const int descriptor = descriptor_;
-    descriptor_ = -1;
-    return ::close(descriptor) == 0;
-  }
+constexpr int kPieceRows = 64;  // a piece stays in the processor's cache until the receiver has it
 
- private:
-  int descriptor_;
-};
+using DecodeRowsOf = void (*)(std::span<const std::byte>, const std::string&, int, const PieceReceiver&);
 
-[[noreturn]] void FailOutput(const std::filesystem::path& path, int error) {
-  throw Error(ErrorCode::OutputFailed, std::string("cannot be written: ") + std::strerror(error), path.string());
+// Of the formats that are decoded row by row; null for others.
+DecodeRowsOf RowDecoderOf(std::span<const std::byte> bytes) {
+  return LooksLikePng(bytes) ? DecodePng : LooksLikeJpeg(bytes) ? DecodeJpeg : nullptr;
 }
 
-// In the same folder, so that the rename stays within one file system; the extension stays, as encoders go by it.
-std::filesystem::path TemporaryName(const std::filesystem::path& path) {
-  static std::atomic<unsigned> counter = 0;
-  std::filesystem::path name = ".";
-  name += path.stem();
-  name += ".part-" + std::to_string(::getpid()) + "-" + std::to_string(counter.fetch_add(1));
-  name += path.extension();
-  return path.parent_path() / name;
+Image DecodeWhole(std::span<const std::byte> bytes, const std::string& name, ImageFormats formats) {
+  if (LooksLikeWebP(bytes)) return DecodeWebP(bytes, name);
+  const ImageFormat* const format = FormatOf(bytes, name);
+  if (formats == ImageFormats::Gltf) {
+    throw Error(ErrorCode::InvalidInput,
+                format != nullptr ? "a " + std::string(format->name) + " image, which glTF does not allow"
+                                  : std::string("no image: its format is not known"),
+                name, "convert it to PNG or JPEG");
+  }
+  if (LooksLikeRadiance(bytes)) return DecodeRadiance(bytes, name);
+  if (format == nullptr) throw Error(ErrorCode::InvalidInput, "no image: its format is not known", name);
+  return DecodeWithOiio(bytes, format->extension, name);
 }
 
 }  // namespace
@@ -70,110 +59,77 @@ void CheckImageSize(std::uint64_t width, std::uint64_t height, const std::string
               name, "scale the picture down");
 }
 
-std::vector<std::byte> AllocatePixels(std::size_t count, const std::string& name) {
+MemoryLease LeaseImage(std::uint64_t width, std::uint64_t height, std::uint64_t rows, std::uint64_t bytes_per_pixel,
+                       const std::string& name) {
+  CheckImageSize(width, height, name);
+  return MemoryLease(width * rows, bytes_per_pixel,
+                     "decoding an image of " + std::to_string(width) + " x " + std::to_string(height) + " pixels", name,
+                     "scale the image down");
+}
+
+void ReservePixels(std::vector<std::byte>& pixels, std::size_t count, const std::string& name) {
   try {
-    std::vector<std::byte> pixels;
     pixels.reserve(count);
     PreferHugePages(pixels.data(), count);
-    pixels.resize(count);
-    return pixels;
   } catch (const std::bad_alloc&) {
     throw Error(ErrorCode::OutOfMemory, "no memory for " + std::to_string(count) + " bytes of pixels", name);
   }
 }
 
-std::vector<std::byte> ReadFileWhole(const std::filesystem::path& path) {
-  const auto fail = [&](int error) {
-    throw Error(ErrorCode::NotFound, std::string("cannot be read: ") + std::strerror(error), path.string());
-  };
-  const File file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
-  if (file.get() < 0) fail(errno);
-  struct stat status {};
-  if (::fstat(file.get(), &status) != 0) fail(errno);
-  if (S_ISDIR(status.st_mode)) fail(EISDIR);
-  std::vector<std::byte> bytes;
-  // The size is a hint: pipes have none.
-  std::size_t used = 0;
-  try {
-    bytes.resize(static_cast<std::size_t>(std::max<off_t>(status.st_size, 0)) + 1);
-    for (;;) {
-      if (used == bytes.size()) bytes.resize(bytes.size() * 2 + 4096);
-      const ssize_t count = ::read(file.get(), bytes.data() + used, bytes.size() - used);
-      if (count < 0 && errno == EINTR) continue;
-      if (count < 0) fail(errno);
-      if (count == 0) break;
-      used += static_cast<std::size_t>(count);
+std::vector<std::byte> AllocatePixels(std::size_t count, const std::string& name) {
+  std::vector<std::byte> pixels;
+  ReservePixels(pixels, count, name);
+  pixels.resize(count);
+  return pixels;
+}
+
+Image DecodeImage(std::span<const std::byte> bytes, const std::string& name, ImageFormats formats) {
+  const DecodeRowsOf decode = RowDecoderOf(bytes);
+  if (decode == nullptr) return DecodeWhole(bytes, name, formats);
+  Image image;
+  MemoryLease lease;
+  decode(bytes, name, kPieceRows, [&](Image& rows, int height) {
+    if (rows.height == height) {
+      image = std::move(rows);
+      return;
     }
-  } catch (const std::bad_alloc&) {
-    throw Error(ErrorCode::OutOfMemory, "the file is larger than the memory", path.string());
-  }
-  bytes.resize(used);
-  return bytes;
-}
-
-void WriteFileWhole(const std::filesystem::path& path, const std::function<void(const std::filesystem::path&)>& write) {
-  std::error_code ignored;
-  // A pipe or a device stays what it is: it has no state to keep whole. A link stays a link to the new file.
-  const std::filesystem::file_status status = std::filesystem::status(path, ignored);
-  if (std::filesystem::is_fifo(status) || std::filesystem::is_character_file(status)) return write(path);
-  const std::filesystem::path target =
-      std::filesystem::is_symlink(path, ignored) ? std::filesystem::weakly_canonical(path, ignored) : path;
-  const std::filesystem::path temporary = TemporaryName(target);
-  try {
-    write(temporary);
-  } catch (...) {
-    ::unlink(temporary.c_str());
-    throw;
-  }
-  if (::rename(temporary.c_str(), target.c_str()) == 0) return;
-  const int error = errno;
-  ::unlink(temporary.c_str());
-  FailOutput(path, error);
-}
-
-void WriteFileWhole(const std::filesystem::path& path, std::span<const std::byte> bytes) {
-  WriteFileWhole(path, std::initializer_list<std::span<const std::byte>>{bytes});
-}
-
-void WriteFileWhole(const std::filesystem::path& path, std::initializer_list<std::span<const std::byte>> parts) {
-  WriteFileWhole(path, [&](const std::filesystem::path& temporary) {
-    File file(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
-    if (file.get() < 0) FailOutput(path, errno);
-    for (std::span<const std::byte> left : parts) {
-      while (!left.empty()) {
-        const ssize_t count = ::write(file.get(), left.data(), left.size());
-        if (count < 0 && errno == EINTR) continue;
-        if (count <= 0) FailOutput(path, count < 0 ? errno : EIO);
-        left = left.subspan(static_cast<std::size_t>(count));
-      }
+    const std::size_t row_bytes = rows.bytes.size() / std::size_t(rows.height);
+    if (image.bytes.empty()) {
+      lease = LeaseImage(std::uint64_t(rows.width), std::uint64_t(height), std::uint64_t(height),
+                         row_bytes / std::size_t(rows.width), name);
+      ReservePixels(image.bytes, row_bytes * std::size_t(height), name);
+      image.width = rows.width, image.height = height, image.channels = rows.channels;
+      image.type = rows.type, image.encoding = rows.encoding;
     }
-    if (!file.Close()) FailOutput(path, errno);
+    image.bytes.insert(image.bytes.end(), rows.bytes.begin(), rows.bytes.end());
+    image.damage = rows.damage;
   });
+  return image;
 }
 
-Image DecodeImage(std::span<const std::byte> bytes, const std::string& name) {
-  if (LooksLikePng(bytes) || LooksLikeJpeg(bytes)) {
-    Image image;
-    const auto decode = LooksLikePng(bytes) ? DecodePng : DecodeJpeg;
-    decode(bytes, name, kMaxImageSide, [&](Image& whole, int) { image = std::move(whole); });
-    return image;
-  }
-  if (LooksLikeRadiance(bytes)) return DecodeRadiance(bytes, name);
-  if (bytes.size() < 12) throw Error(ErrorCode::InvalidInput, "too short for a picture", name);
-  return DecodeWithOiio(bytes, name);
-}
-
-void DecodeImageRows(std::span<const std::byte> bytes, const std::string& name, const RowReceiver& receive) {
-  constexpr int kRows = 64;  // a piece stays in the processor's cache until the receiver has it
-  if (LooksLikePng(bytes)) return DecodePng(bytes, name, kRows, receive);
-  if (LooksLikeJpeg(bytes)) return DecodeJpeg(bytes, name, kRows, receive);
-  const Image whole = DecodeImage(bytes, name);
+void DecodeImageRows(std::span<const std::byte> bytes, const std::string& name, const RowReceiver& receive,
+                     ImageFormats formats) {
+  if (const DecodeRowsOf decode = RowDecoderOf(bytes)) return decode(bytes, name, kPieceRows, receive);
+  const Image whole = DecodeWhole(bytes, name, formats);
+  const MemoryLease lease(whole.bytes.size(), 1, "decoded images", name);
   receive(whole, whole.height);
 }
 
-Image LoadImage(const std::filesystem::path& path) {
+Image DecodeStored(std::span<const std::byte> bytes, const std::string& name) {
+  return LooksLikeExr(bytes) ? DecodeWithOiio(bytes, "exr", name, /*as_stored=*/true) : DecodeImage(bytes, name);
+}
+
+std::map<std::string, std::string> ReadImageText(std::span<const std::byte> bytes, const std::string& name) {
+  if (LooksLikePng(bytes)) return ReadPngText(bytes, name);
+  if (LooksLikeExr(bytes)) return ReadExrText(bytes, name);
+  throw Error(ErrorCode::InvalidInput, "is neither PNG nor EXR", name);
+}
+
+Image LoadImage(const std::filesystem::path& path, std::uint64_t memory_limit) {
   const FloatEnvironment pinned;
-  return DecodeImage(ReadFileWhole(path), path.string());
+  MemoryBudget budget(memory_limit);
+  const MemoryBudget::Scope scope(budget);
+  return DecodeImage(ReadFile(path).Span(), path.string());
 }
 
 }  // namespace facet

@@ -23,13 +23,16 @@
 namespace facet {
 namespace {
 
-// A progressive file of a few kilobytes can ask for thousands of passes over the whole picture.
-constexpr int kMaxScans = 500;
+// A progressive file of a few kilobytes can ask for thousands of scans, each a pass over the whole image. Encoders write
+// some ten; as many blocks as this are decoded in all, but so many scans of any image.
+constexpr std::uint64_t kMaxBlocks = std::uint64_t{1} << 28;
+constexpr std::uint64_t kFewScans = 32, kMaxScans = 500;
 
 struct ErrorState {
   jpeg_error_mgr manager;  // first: libjpeg hands back a pointer to it
   std::jmp_buf jump;
   char text[JMSG_LENGTH_MAX];
+  bool ended_early;  // the end marker is missing
 };
 
 [[noreturn]] void OnError(j_common_ptr codec) {
@@ -42,7 +45,9 @@ struct ErrorState {
 void OnMessage(j_common_ptr codec, int level) {
   if (level >= 0) return;
   switch (codec->err->msg_code) {
-    case JWRN_JPEG_EOF:
+    case JWRN_JPEG_EOF:  // where a scan still wants bits, JWRN_HIT_MARKER follows
+      reinterpret_cast<ErrorState*>(codec->err)->ended_early = true;
+      break;
     case JWRN_HIT_MARKER:
     case JWRN_HUFF_BAD_CODE:
     case JWRN_MUST_RESYNC:
@@ -56,17 +61,42 @@ void OnMessage(j_common_ptr codec, int level) {
 void OnOutput(j_common_ptr) {}
 
 struct ScanGuard {
-  jpeg_progress_mgr manager;
-  bool too_many;
+  jpeg_progress_mgr manager;  // first, as above
+  int most;
 };
 
 void OnProgress(j_common_ptr codec) {
-  if (!codec->is_decompressor) return;
   const auto* decoder = reinterpret_cast<j_decompress_ptr>(codec);
-  if (decoder->input_scan_number <= kMaxScans) return;
+  const int most = reinterpret_cast<const ScanGuard*>(codec->progress)->most;
+  if (decoder->input_scan_number <= most) return;
   auto* state = reinterpret_cast<ErrorState*>(codec->err);
-  std::snprintf(state->text, sizeof state->text, "more than %d scans", kMaxScans);
+  std::snprintf(state->text, sizeof state->text, "more than %d scans", most);
   std::longjmp(state->jump, 1);
+}
+
+std::uint64_t BlockCount(const jpeg_decompress_struct& decoder) {
+  std::uint64_t count = 0;
+  for (int i = 0; i < decoder.num_components; ++i) {
+    const jpeg_component_info& component = decoder.comp_info[i];
+    const auto blocks = [](JDIMENSION pixels, int factor, int most) {
+      const std::uint64_t unit = std::uint64_t(most) * DCTSIZE;  // of the component with the most samples
+      return (std::uint64_t(pixels) * std::uint64_t(factor) + unit - 1) / unit + std::uint64_t(factor);
+    };
+    count += blocks(decoder.image_width, component.h_samp_factor, decoder.max_h_samp_factor) *
+             blocks(decoder.image_height, component.v_samp_factor, decoder.max_v_samp_factor);
+  }
+  return count;
+}
+
+// A progressive image sends its coefficients bit by bit: all bits of all have been there.
+bool IsWhole(const jpeg_decompress_struct& decoder) {
+  if (decoder.coef_bits == nullptr) return false;  // not progressive: nobody counts
+  for (int i = 0; i < decoder.num_components; ++i) {
+    for (int k = 0; k < DCTSIZE2; ++k) {
+      if (decoder.coef_bits[i][k] != 0) return false;
+    }
+  }
+  return true;
 }
 
 // The coefficients of whole pictures in several scans, an array for each component. libjpeg's own are in small pages,
@@ -133,7 +163,13 @@ bool Start(jpeg_decompress_struct* decoder, ErrorState* errors, const unsigned c
 // The next `count` rows, the first of which is row `first` of the picture.
 bool ReadRows(jpeg_decompress_struct* decoder, ErrorState* errors, JSAMPROW* rows, JDIMENSION first, JDIMENSION count) {
   if (setjmp(errors->jump) != 0) return false;
-  if (first == 0) jpeg_start_decompress(decoder);
+  if (first == 0) {
+    jpeg_start_decompress(decoder);  // of several scans, reads all
+    if (errors->ended_early && jpeg_has_multiple_scans(decoder) && !IsWhole(*decoder)) {
+      std::snprintf(errors->text, sizeof errors->text, "scans are missing at its end");
+      return false;
+    }
+  }
   while (decoder->output_scanline < first + count) {
     const JDIMENSION at = decoder->output_scanline - first;
     jpeg_read_scanlines(decoder, rows + at, count - at);
@@ -154,7 +190,6 @@ struct Decoder {
     errors.manager.output_message = OnOutput;
     if (!Create(&decoder, &errors)) throw Error(ErrorCode::OutOfMemory, std::string("libjpeg: ") + errors.text);
     guard.manager.progress_monitor = OnProgress;
-    decoder.progress = &guard.manager;
     decoder.client_data = &coefficients;
   }
   ~Decoder() {
@@ -197,6 +232,14 @@ void DecodeJpeg(std::span<const std::byte> bytes, const std::string& name, int p
     throw fail();
   }
   CheckImageSize(jpeg.decoder.image_width, jpeg.decoder.image_height, name);
+  const bool several_scans = jpeg_has_multiple_scans(&jpeg.decoder) != 0;
+  const std::uint64_t blocks = BlockCount(jpeg.decoder);
+  if (several_scans) {
+    jpeg.guard.most = static_cast<int>(std::clamp(kMaxBlocks / std::max<std::uint64_t>(blocks, 1), kFewScans, kMaxScans));
+    jpeg.decoder.progress = &jpeg.guard.manager;
+  }
+  const MemoryLease coefficients(several_scans ? blocks : 0, sizeof(JBLOCK), "the coefficients of JPEG images", name,
+                                 "scale the image down");
 
   const bool inks = jpeg.decoder.out_color_space == JCS_CMYK;
   const int height = static_cast<int>(jpeg.decoder.image_height);
@@ -207,7 +250,10 @@ void DecodeJpeg(std::span<const std::byte> bytes, const std::string& name, int p
   image.encoding = Encoding::Srgb;
   const std::size_t decoded_channels = inks ? 4 : static_cast<std::size_t>(image.channels);
   const std::size_t row_bytes = std::size_t(image.width) * decoded_channels;
-  std::vector<std::byte> decoded = AllocatePixels(row_bytes * std::size_t(std::min(piece_rows, height)), name);
+  const int most_rows = std::min(piece_rows, height);
+  const MemoryLease lease = LeaseImage(jpeg.decoder.image_width, jpeg.decoder.image_height, std::uint64_t(most_rows),
+                                       decoded_channels + (inks ? 3 : 0), name);
+  std::vector<std::byte> decoded = AllocatePixels(row_bytes * std::size_t(most_rows), name);
   for (int first = 0; first < height; first += image.height) {
     image.height = std::min(piece_rows, height - first);
     std::vector<JSAMPROW> rows(static_cast<std::size_t>(image.height));
@@ -218,6 +264,7 @@ void DecodeJpeg(std::span<const std::byte> bytes, const std::string& name, int p
                   static_cast<JDIMENSION>(image.height))) {
       throw fail();
     }
+    if (jpeg.errors.ended_early) image.damage = "the JPEG has no end marker";
     if (inks) {
       image.bytes = AllocatePixels(image.PixelCount() * 3, name);
       CmykToRgb(decoded, jpeg.decoder.saw_Adobe_marker != 0, image);

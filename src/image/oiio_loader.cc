@@ -126,14 +126,18 @@ ErrorCode CodeOf(int result) {
 
 }  // namespace
 
-Image DecodeWithOiio(std::span<const std::byte> bytes, const std::string& name) {
-  const Module module = GetFor(name, "not PNG, JPEG or Radiance, and ");
+Image DecodeWithOiio(std::span<const std::byte> bytes, std::string_view extension, const std::string& name,
+                     bool as_stored) {
+  const Module module = GetFor(name, "not PNG, JPEG, WebP or Radiance, and ");
   FacetOiioPicture picture{};
   char message[kMessageSize] = {};
-  const int result = module.decode(bytes.data(), bytes.size(), name.c_str(), kMaxImageSide, kMaxImagePixels, &picture,
-                                   message, sizeof message);
+  // The module's pixels and their copy.
+  const std::uint64_t most = MemoryBudget::Current().Left() / 2;
+  const int result = module.decode(bytes.data(), bytes.size(), std::string(extension).c_str(), kMaxImageSide,
+                                   kMaxImagePixels, most, as_stored, &picture, message, sizeof message);
   const std::unique_ptr<void, FacetOiioFree> owner(picture.pixels, module.free);
   if (result != FACET_OIIO_OK) throw Error(CodeOf(result), message, name);
+  const MemoryLease lease(picture.size, 2, "decoded images", name);
   Image image;
   image.width = picture.width;
   image.height = picture.height;
@@ -145,8 +149,9 @@ Image DecodeWithOiio(std::span<const std::byte> bytes, const std::string& name) 
   return image;
 }
 
-void EncodeWithOiio(const std::filesystem::path& path, const Image& image, bool premultiplied) {
-  const Module module = GetFor(path.string(), "only PNG is written without OpenImageIO, and ");
+std::vector<std::byte> EncodeWithOiio(const std::string& extension, const Image& image, bool premultiplied,
+                                      const std::vector<std::array<std::string, 2>>& text) {
+  const Module module = GetFor({}, "only PNG, JPEG and WebP are written without OpenImageIO, and ");
   FacetOiioPicture picture{};
   picture.width = image.width;
   picture.height = image.height;
@@ -156,8 +161,16 @@ void EncodeWithOiio(const std::filesystem::path& path, const Image& image, bool 
   picture.pixels = const_cast<std::byte*>(image.bytes.data());  // the structure serves reading too
   picture.size = image.bytes.size();
   char message[kMessageSize] = {};
-  const int result = module.encode(path.c_str(), &picture, premultiplied, message, sizeof message);
-  if (result != FACET_OIIO_OK) throw Error(CodeOf(result), message, path.string());
+  void* bytes = nullptr;
+  std::size_t size = 0;
+  std::vector<FacetOiioText> entries;
+  for (const auto& [keyword, value] : text) entries.push_back({keyword.c_str(), value.c_str()});
+  const int result = module.encode(extension.c_str(), &picture, premultiplied, entries.data(), entries.size(), &bytes,
+                                   &size, message, sizeof message);
+  const std::unique_ptr<void, FacetOiioFree> owner(bytes, module.free);
+  if (result != FACET_OIIO_OK) throw Error(CodeOf(result), message);
+  const auto* const begin = static_cast<const std::byte*>(bytes);
+  return {begin, begin + size};
 }
 
 void RequireOiio() { Get(); }

@@ -1,23 +1,27 @@
 // The OpenImageIO module, opened when the first file needs it.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "facet/image.h"
 
 namespace facet {
 
-// Decodes any format that OpenImageIO knows; see DecodeImage. Throws Error: MissingModule, InvalidInput, OutOfMemory,
-// Unsupported.
-Image DecodeWithOiio(std::span<const std::byte> bytes, const std::string& name);
+// Decodes a format that OpenImageIO knows by its extension; see DecodeImage and FormatOf. `as_stored`: colours that stand
+// in the file multiplied by alpha stay so. Throws Error: MissingModule, InvalidInput, OutOfMemory, Unsupported.
+Image DecodeWithOiio(std::span<const std::byte> bytes, std::string_view extension, const std::string& name,
+                     bool as_stored = false);
 
-// Writes a file whole or leaves a broken one (the caller writes to a temporary name). `premultiplied`: the picture's
-// alpha is associated. Throws Error: MissingModule, OutputFailed.
-void EncodeWithOiio(const std::filesystem::path& path, const Image& image, bool premultiplied);
+// A whole file of the format that `extension`, without its dot, names. `premultiplied`: the image's alpha is associated.
+// `text`: keywords and values, for formats that hold such. Throws Error: MissingModule, OutputFailed.
+std::vector<std::byte> EncodeWithOiio(const std::string& extension, const Image& image, bool premultiplied,
+                                      const std::vector<std::array<std::string, 2>>& text = {});
 
 // Opens the module now. Throws Error(MissingModule).
 void RequireOiio();

@@ -1,15 +1,15 @@
 // The OpenImageIO module: see oiio_abi.h. The only file that includes OpenImageIO.
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
-#include <dlfcn.h>
+#include <sys/mman.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <cmath>
+#include <cerrno>
 #include <cstdlib>
 #include <cstring>
-#include <filesystem>
 #include <memory>
+#include <span>
 #include <new>
 #include <string>
 #include <string_view>
@@ -38,66 +38,43 @@ TypeDesc TypeOf(ChannelType type) {
   return type == ChannelType::U8 ? TypeDesc::UINT8 : type == ChannelType::U16 ? TypeDesc::UINT16 : TypeDesc::FLOAT;
 }
 
-// OpenImageIO finds a reader by the name's extension; facet by content, so the content chooses the extension.
-std::string ExtensionOf(std::string_view bytes, const std::string& name) {
-  struct Signature {
-    std::size_t at;
-    std::string_view text;
-    const char* extension;
-  };
-  using namespace std::string_view_literals;
-  static constexpr Signature kSignatures[] = {
-      {0, "\x76\x2F\x31\x01"sv, "exr"}, {0, "II*\0"sv, "tif"},         {0, "MM\0*"sv, "tif"},
-      {0, "II+\0"sv, "tif"},            {0, "MM\0+"sv, "tif"},         {8, "WEBP"sv, "webp"},
-      {0, "\x89PNG"sv, "png"},          {0, "\xFF\xD8\xFF"sv, "jpg"},  {0, "#?R"sv, "hdr"},
-      {0, "GIF8"sv, "gif"},             {0, "BM"sv, "bmp"},            {0, "DDS "sv, "dds"},
-      {0, "8BPS"sv, "psd"},             {4, "jP  "sv, "jp2"},          {0, "\xFF\x4F\xFF\x51"sv, "j2c"},
-      {4, "ftypheic"sv, "heic"},        {4, "ftypmif1"sv, "heic"},     {4, "ftypavif"sv, "avif"},
-      {0, "SDPX"sv, "dpx"},             {0, "XPDS"sv, "dpx"},          {0, "\x80\x2A\x5F\xD7"sv, "cin"},
-      {0, "\x01\xDA"sv, "sgi"},         {0, "SIMPLE"sv, "fits"},       {0, "P1"sv, "pbm"},
-      {0, "P2"sv, "pgm"},               {0, "P3"sv, "ppm"},            {0, "P4"sv, "pbm"},
-      {0, "P5"sv, "pgm"},               {0, "P6"sv, "ppm"},            {0, "PF\n"sv, "pfm"},
-      {0, "Pf\n"sv, "pfm"},             {0, "\0\0\1\0"sv, "ico"},
-  };
-  for (const Signature& signature : kSignatures) {
-    if (bytes.size() > signature.at && bytes.substr(signature.at).starts_with(signature.text)) {
-      return signature.extension;
-    }
-  }
-  // Targa has no signature at its start.
-  std::string extension = std::filesystem::path(name).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  if (extension == ".tga") return "tga";
-  throw Failure{FACET_OIIO_INVALID_INPUT, "the picture's format is not known"};
-}
-
-// A file with these bytes for the readers that cannot read from memory; gone with the object.
-class TemporaryFile {
+// A file in memory, for readers and writers that want a name; gone with the object.
+class MemoryFile {
  public:
-  TemporaryFile(std::string_view bytes, const std::string& extension) {
-    path_ = (std::filesystem::temp_directory_path() / "facet-XXXXXX").string() + "." + extension;
-    const int file = ::mkstemps(path_.data(), static_cast<int>(extension.size()) + 1);
-    if (file < 0) throw Failure{FACET_OIIO_INVALID_INPUT, "no temporary file could be made for decoding"};
-    bool whole = true;
-    while (whole && !bytes.empty()) {
-      const ssize_t count = ::write(file, bytes.data(), bytes.size());
-      whole = count > 0;
-      if (whole) bytes.remove_prefix(static_cast<std::size_t>(count));
+  explicit MemoryFile(std::string_view bytes = {}) : descriptor_(::memfd_create("facet image", MFD_CLOEXEC)) {
+    while (descriptor_ >= 0 && !bytes.empty()) {
+      const ssize_t count = ::write(descriptor_, bytes.data(), bytes.size());
+      if (count < 0 && errno == EINTR) continue;
+      if (count <= 0) break;
+      bytes.remove_prefix(static_cast<std::size_t>(count));
     }
-    ::close(file);
-    if (!whole) {
-      ::unlink(path_.c_str());
-      throw Failure{FACET_OIIO_INVALID_INPUT, "no room for a temporary file for decoding"};
+    if (descriptor_ < 0 || !bytes.empty()) {
+      if (descriptor_ >= 0) ::close(descriptor_);
+      throw Failure{FACET_OIIO_TOO_LARGE, "no memory for the file"};
     }
   }
-  ~TemporaryFile() { ::unlink(path_.c_str()); }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-  const std::string& path() const { return path_; }
+  ~MemoryFile() { ::close(descriptor_); }
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
+
+  std::string path() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
+
+  // What it holds, in memory of malloc's.
+  void Copy(void** bytes, std::size_t* size) const {
+    *size = static_cast<std::size_t>(std::max<off_t>(::lseek(descriptor_, 0, SEEK_END), 0));
+    *bytes = std::malloc(std::max<std::size_t>(*size, 1));
+    if (*bytes == nullptr) throw std::bad_alloc();
+    for (std::size_t done = 0; done < *size;) {
+      const ssize_t count =
+          ::pread(descriptor_, static_cast<char*>(*bytes) + done, *size - done, static_cast<off_t>(done));
+      if (count < 0 && errno == EINTR) continue;
+      if (count <= 0) throw Failure{FACET_OIIO_OUTPUT_FAILED, "the file cannot be read back"};
+      done += static_cast<std::size_t>(count);
+    }
+  }
 
  private:
-  std::string path_;
+  int descriptor_;
 };
 
 std::string OneLine(std::string text) {
@@ -141,23 +118,8 @@ void Unassociate(FacetOiioPicture& picture) {
   if (picture.type == static_cast<int>(ChannelType::U16)) integers(static_cast<std::uint16_t*>(picture.pixels), 0xFFFF);
 }
 
-// OpenImageIO 2.4 multiplies WebP's colours by alpha in 8 bits whatever it is asked for, and what lay under alpha 0 is
-// lost; glTF ignores alpha in most places, so the colours matter. libwebp, which OpenImageIO has loaded already, gives
-// them as they are. False when it cannot (an animation, another version): OpenImageIO reads the picture then.
-bool DecodeStraightWebP(std::string_view bytes, const FacetOiioPicture& picture) {
-  using DecodeInto = std::uint8_t* (*)(const std::uint8_t*, std::size_t, std::uint8_t*, std::size_t, int);
-  void* library = ::dlopen("libwebp.so.7", RTLD_NOW | RTLD_NOLOAD);
-  if (!library) return false;
-  const auto decode = reinterpret_cast<DecodeInto>(::dlsym(library, "WebPDecodeRGBAInto"));
-  const bool done = decode && decode(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size(),
-                                     static_cast<std::uint8_t*>(picture.pixels), picture.size, picture.width * 4);
-  ::dlclose(library);  // its count of users, not the library
-  return done;
-}
-
-void Decode(std::string_view bytes, const std::string& name, int max_side, std::uint64_t max_pixels,
-            FacetOiioPicture* picture) {
-  const std::string extension = ExtensionOf(bytes, name);
+void Decode(std::string_view bytes, const std::string& extension, int max_side, std::uint64_t max_pixels,
+            std::uint64_t max_bytes, bool as_stored, FacetOiioPicture* picture) {
   ImageSpec config;
   config.attribute("oiio:UnassociatedAlpha", 1);
   auto input = ImageInput::create(extension);
@@ -166,12 +128,12 @@ void Decode(std::string_view bytes, const std::string& name, int max_side, std::
     throw Failure{FACET_OIIO_UNSUPPORTED, "OpenImageIO was built without a reader for ." + extension};
   }
   OIIO::Filesystem::IOMemReader memory(const_cast<char*>(bytes.data()), bytes.size());
-  std::unique_ptr<TemporaryFile> file;
+  std::unique_ptr<MemoryFile> file;
   std::string path = "picture." + extension;
   if (input->supports("ioproxy")) {
     input->set_ioproxy(&memory);
   } else {
-    file = std::make_unique<TemporaryFile>(bytes, extension);
+    file = std::make_unique<MemoryFile>(bytes);
     path = file->path();
   }
   ImageSpec spec;
@@ -202,23 +164,30 @@ void Decode(std::string_view bytes, const std::string& name, int max_side, std::
   picture->type = static_cast<int32_t>(type);
   picture->encoding = static_cast<int32_t>(linear ? Encoding::Linear : Encoding::Srgb);
   picture->size = width * height * static_cast<std::size_t>(picture->channels) * facet::SizeOf(type);
+  if (picture->size > max_bytes) {
+    throw Failure{FACET_OIIO_TOO_LARGE, std::to_string(width) + " x " + std::to_string(height) + " pixels of " +
+                                            std::to_string(picture->size / (width * height)) +
+                                            " bytes do not fit into the memory limit"};
+  }
   picture->pixels = std::malloc(picture->size);
   if (!picture->pixels) throw std::bad_alloc();
-  if (extension == "webp" && picture->channels == 4 && DecodeStraightWebP(bytes, *picture)) return;
   if (!input->read_image(0, 0, 0, picture->channels, TypeOf(type), picture->pixels)) {
     throw Failure{FACET_OIIO_INVALID_INPUT, "broken " + extension + " picture: " + OneLine(input->geterror())};
   }
   const bool has_alpha = picture->channels == 2 || picture->channels == 4;
-  if (has_alpha && spec.get_int_attribute("oiio:UnassociatedAlpha") == 0) Unassociate(*picture);
+  if (has_alpha && !as_stored && spec.get_int_attribute("oiio:UnassociatedAlpha") == 0) Unassociate(*picture);
   input->close();
 }
 
-void Encode(const std::string& path, const FacetOiioPicture& picture, bool premultiplied) {
+void Encode(const std::string& extension, const FacetOiioPicture& picture, bool premultiplied,
+            std::span<const FacetOiioText> text, void** bytes, std::size_t* size) {
   const auto fail = [&](const std::string& why) {
     throw Failure{FACET_OIIO_OUTPUT_FAILED, "the picture could not be written: " + OneLine(why)};
   };
-  auto output = ImageOutput::create(path);
+  auto output = ImageOutput::create(extension);
   if (!output) fail(OIIO::geterror());
+  // Files are written by facet itself: only into memory here. (OpenImageIO's own way of doing that fails for TIFF.)
+  const MemoryFile memory;
   const TypeDesc type = TypeOf(static_cast<ChannelType>(picture.type));
   ImageSpec spec(picture.width, picture.height, picture.channels, type);
   spec.channelnames.clear();
@@ -233,13 +202,13 @@ void Encode(const std::string& path, const FacetOiioPicture& picture, bool premu
   spec.alpha_channel = has_alpha ? picture.channels - 1 : -1;
   if (has_alpha && !premultiplied) spec.attribute("oiio:UnassociatedAlpha", 1);
   spec.attribute("oiio:ColorSpace", picture.encoding == static_cast<int>(Encoding::Linear) ? "Linear" : "sRGB");
-  const std::string extension = std::filesystem::path(path).extension().string();
   // OpenImageIO stamps EXR and TIFF with the present time; the file is to be a function of the picture alone.
   spec.attribute("DateTime", "1970:01:01 00:00:00");
-  if (extension == ".jpg" || extension == ".jpeg") spec.attribute("Compression", "jpeg:95");
-  if (!output->open(path, spec)) fail(output->geterror());
+  for (const FacetOiioText& entry : text) spec.attribute(entry.keyword, entry.value);
+  if (!output->open(memory.path(), spec)) fail(output->geterror());
   if (!output->write_image(type, picture.pixels)) fail(output->geterror());
   if (!output->close()) fail(output->geterror());
+  memory.Copy(bytes, size);
 }
 
 // No exception leaves the module.
@@ -274,17 +243,20 @@ int32_t Guarded(char* message, std::size_t message_size, Body&& body) noexcept {
 
 FACET_MODULE_EXPORT int32_t FacetOiioAbiVersion_() { return FACET_OIIO_ABI_VERSION; }
 
-FACET_MODULE_EXPORT int32_t FacetOiioDecode_(const void* bytes, size_t size, const char* name, int32_t max_side,
-                                             uint64_t max_pixels, FacetOiioPicture* picture, char* message,
-                                             size_t message_size) {
+FACET_MODULE_EXPORT int32_t FacetOiioDecode_(const void* bytes, size_t size, const char* extension, int32_t max_side,
+                                             uint64_t max_pixels, uint64_t max_bytes, int32_t as_stored,
+                                             FacetOiioPicture* picture, char* message, size_t message_size) {
   return Guarded(message, message_size, [&] {
-    Decode(std::string_view(static_cast<const char*>(bytes), size), name, max_side, max_pixels, picture);
+    Decode(std::string_view(static_cast<const char*>(bytes), size), extension, max_side, max_pixels, max_bytes,
+           as_stored != 0, picture);
   });
 }
 
-FACET_MODULE_EXPORT int32_t FacetOiioEncode_(const char* path, const FacetOiioPicture* picture, int32_t premultiplied,
-                                             char* message, size_t message_size) {
-  return Guarded(message, message_size, [&] { Encode(path, *picture, premultiplied != 0); });
+FACET_MODULE_EXPORT int32_t FacetOiioEncode_(const char* extension, const FacetOiioPicture* picture,
+                                             int32_t premultiplied, const FacetOiioText* text, size_t text_count,
+                                             void** bytes, size_t* size, char* message, size_t message_size) {
+  return Guarded(message, message_size,
+                 [&] { Encode(extension, *picture, premultiplied != 0, {text, text_count}, bytes, size); });
 }
 
 FACET_MODULE_EXPORT void FacetOiioFree_(void* pixels) { std::free(pixels); }

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cerrno>
 #include <csetjmp>
 #include <cstdio>
 #include <cstring>
@@ -31,6 +30,7 @@ namespace {
 
 struct Complaint {
   char text[160] = {};
+  char warning[160] = {};  // the first
 };
 
 void OnError(png_structp png, png_const_charp message) {
@@ -39,7 +39,10 @@ void OnError(png_structp png, png_const_charp message) {
   png_longjmp(png, 1);
 }
 
-void OnWarning(png_structp, png_const_charp) {}
+void OnWarning(png_structp png, png_const_charp message) {
+  auto* complaint = static_cast<Complaint*>(png_get_error_ptr(png));
+  if (complaint->warning[0] == '\0') std::snprintf(complaint->warning, sizeof complaint->warning, "%s", message);
+}
 
 struct Cursor {
   const std::byte* at;
@@ -57,6 +60,7 @@ void ReadBytes(png_structp png, png_bytep to, std::size_t count) {
 struct Header {
   png_uint_32 width, height;
   int channels, bit_depth, passes;
+  png_uint_32 file_row_bytes;  // of the widest pass
 };
 
 // Up to the first row, with every transformation set. False: the complaint says why.
@@ -64,10 +68,11 @@ bool ReadHeader(png_structp png, png_infop info, Header* header) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
   // The limits are checked by the caller, who names the size.
   png_set_user_limits(png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
-  png_set_crc_action(png, PNG_CRC_ERROR_QUIT, PNG_CRC_ERROR_QUIT);
+  png_set_crc_action(png, PNG_CRC_ERROR_QUIT, PNG_CRC_WARN_DISCARD);  // for critical chunks, and for the others
   // Profiles, gamma, text: not parsed at all (tRNS is kept).
   png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
   png_read_info(png, info);
+  header->file_row_bytes = static_cast<png_uint_32>(png_get_rowbytes(png, info));
   header->width = png_get_image_width(png, info);
   header->height = png_get_image_height(png, info);
   png_set_expand(png);  // palettes, grey below 8 bits, tRNS
@@ -80,17 +85,27 @@ bool ReadHeader(png_structp png, png_infop info, Header* header) {
 }
 
 // The next `count` rows; all of an interlaced picture at once.
-bool ReadRows(png_structp png, int passes, png_bytepp rows, png_uint_32 count, bool last) {
+bool ReadRows(png_structp png, int passes, png_bytepp rows, png_uint_32 count) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
   for (int pass = 0; pass < passes; ++pass) png_read_rows(png, rows, nullptr, count);
-  if (last) png_read_end(png, nullptr);
   return true;
 }
 
-// All chunks before the pixels.
+// What follows the pixels.
+bool ReadEnd(png_structp png) {
+  if (setjmp(png_jmpbuf(png)) != 0) return false;
+  png_read_end(png, nullptr);
+  return true;
+}
+
+// All chunks before the pixels, their texts unpacked.
 bool ReadInfo(png_structp png, png_infop info) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
   png_set_user_limits(png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
+  constexpr png_alloc_size_t kMostText = 1 << 20;
+  constexpr png_uint_32 kMostChunks = 64;
+  png_set_chunk_malloc_max(png, kMostText);
+  png_set_chunk_cache_max(png, kMostChunks);
   png_set_crc_action(png, PNG_CRC_ERROR_QUIT, PNG_CRC_ERROR_QUIT);
   png_read_info(png, info);
   return true;
@@ -271,7 +286,7 @@ void Append(std::vector<std::byte>& out, const Write& write) {
   }
 }
 
-void AppendHead(std::vector<std::byte>& out, const Image& form, const PngText& text) {
+void AppendHead(std::vector<std::byte>& out, const Image& form, const ImageText& text) {
   std::vector<png_text> chunks;
   for (const auto& [key, value] : text) {
     CheckKeyword(key);
@@ -320,18 +335,25 @@ void DecodePng(std::span<const std::byte> bytes, const std::string& name, int pi
   Header header{};
   if (!ReadHeader(reader.png, reader.info, &header)) throw fail();
   CheckImageSize(header.width, header.height, name);
+  // Deflate's best case: whoever claims more never had the pixels, and shall not get their memory.
+  constexpr std::uint64_t kMostUnpacked = 1032;
+  if (std::uint64_t(header.file_row_bytes) * header.height / kMostUnpacked > bytes.size()) {
+    throw Error(ErrorCode::InvalidInput, "broken PNG: the file is cut off", name);
+  }
 
   Image image;
   image.width = static_cast<int>(header.width);
   image.channels = header.channels;
   image.type = header.bit_depth == 16 ? ChannelType::U16 : ChannelType::U8;
   image.encoding = Encoding::Srgb;
-  const std::size_t row_bytes = std::size_t(header.width) * std::size_t(header.channels) * SizeOf(image.type);
+  const std::size_t pixel_bytes = std::size_t(header.channels) * SizeOf(image.type);
+  const std::size_t row_bytes = std::size_t(header.width) * pixel_bytes;
   if (png_get_rowbytes(reader.png, reader.info) != row_bytes) {
     throw Error(ErrorCode::Internal, "libpng's rows have an unexpected length", name);
   }
   const int height = static_cast<int>(header.height);
   const int most = header.passes > 1 ? height : std::min(piece_rows, height);
+  const MemoryLease lease = LeaseImage(header.width, header.height, std::uint64_t(most), pixel_bytes, name);
   image.bytes = AllocatePixels(row_bytes * std::size_t(most), name);
   for (int first = 0; first < height; first += most) {
     image.height = std::min(most, height - first);
@@ -340,16 +362,16 @@ void DecodePng(std::span<const std::byte> bytes, const std::string& name, int pi
     for (std::size_t y = 0; y < rows.size(); ++y) {
       rows[y] = reinterpret_cast<png_bytep>(image.bytes.data() + y * row_bytes);
     }
-    if (!ReadRows(reader.png, header.passes, rows.data(), static_cast<png_uint_32>(image.height),
-                  first + image.height == height)) {
-      throw fail();
+    if (!ReadRows(reader.png, header.passes, rows.data(), static_cast<png_uint_32>(image.height))) throw fail();
+    if (first + image.height == height) {
+      const char* const what = ReadEnd(reader.png) ? reader.complaint.warning : reader.complaint.text;
+      if (what[0] != '\0') image.damage = std::string("damaged PNG: ") + what;
     }
     receive(image, height);
   }
 }
 
 std::map<std::string, std::string> ReadPngText(std::span<const std::byte> bytes, const std::string& name) {
-  if (!LooksLikePng(bytes)) throw Error(ErrorCode::InvalidInput, "is no PNG", name);
   Reader reader;
   Cursor cursor{bytes.data(), bytes.size()};
   png_set_read_fn(reader.png, &cursor, ReadBytes);
@@ -363,15 +385,15 @@ std::map<std::string, std::string> ReadPngText(std::span<const std::byte> bytes,
   return text;
 }
 
-std::vector<std::byte> EncodePng(const Image& image, const PngText& text) {
+std::vector<std::byte> EncodePng(const Image& image, const ImageText& text) {
   return EncodePng(image, [&] { return text; });
 }
 
-std::vector<std::byte> EncodePng(const Image& image, const std::function<PngText()>& make_text) {
+std::vector<std::byte> EncodePng(const Image& image, const std::function<ImageText()>& make_text) {
   CheckImage(image, "picture to write");
   CheckForm(image);
   PageVector<unsigned char> packed;
-  PngText text;
+  ImageText text;
   ParallelFor(2, 1, [&](std::size_t piece, std::size_t) {
     if (piece == 0) {
       packed = Pack(image);
@@ -387,19 +409,18 @@ std::vector<std::byte> EncodePng(const Image& image, const std::function<PngText
   return out;
 }
 
-PngStream::PngStream(const std::filesystem::path& path, const std::string& name, const Image& form, const PngText& text)
-    : name_(name),
-      file_(std::fopen(path.c_str(), "wb"), std::fclose),
-      form_{form.width, form.height, form.channels, form.type, form.encoding, {}},
-      above_(RowBytes(form)) {
+PngStream::PngStream(const std::filesystem::path& path, const Image& form, const ImageText& text)
+    : name_(path.string()),
+      form_{form.width, form.height, form.channels, form.type, form.encoding, {}, {}},
+      above_(RowBytes(form)),
+      file_(path) {
   CheckForm(form);
-  if (!file_) Fail();
   std::vector<std::byte> head;
   AppendHead(head, form_, text);
   head_size_ = head.size();
   static constexpr unsigned char kFastestZlib[] = {0x78, 0x01};  // RFC 1950: a window of 32 KiB
   AppendPixels(head, kFastestZlib);
-  Write(head);
+  file_.Write(head);
 }
 
 void PngStream::Add(const Image& rows, const std::function<void()>& meanwhile) {
@@ -430,13 +451,13 @@ void PngStream::Add(const Image& rows, const std::function<void()>& meanwhile) {
         static_cast<std::uint32_t>(adler32_combine(checksum_, piece.checksum, static_cast<z_off_t>(piece.size)));
     std::vector<std::byte> chunk;
     AppendPixels(chunk, std::exchange(piece.packed, {}));
-    Write(chunk);
+    file_.Write(chunk);
   }
   std::copy_n(rows.As<unsigned char>() + (height - 1) * row_bytes, row_bytes, above_.data());
   next_row_ += rows.height;
 }
 
-void PngStream::Finish(const PngText& text) {
+void PngStream::Finish(const ImageText& text) {
   std::vector<std::byte> head;
   AppendHead(head, form_, text);
   if (next_row_ != form_.height || head.size() != head_size_) {
@@ -449,18 +470,9 @@ void PngStream::Finish(const PngText& text) {
   std::vector<std::byte> tail;
   AppendPixels(tail, last);
   AppendEnd(tail);
-  Write(tail);
-  if (std::fseek(file_.get(), 0, SEEK_SET) != 0) Fail();
-  Write(head);
-  if (std::fclose(file_.release()) != 0) Fail();
-}
-
-void PngStream::Write(std::span<const std::byte> bytes) {
-  if (std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size()) Fail();
-}
-
-void PngStream::Fail() const {
-  throw Error(ErrorCode::OutputFailed, std::string("cannot be written: ") + std::strerror(errno), name_);
+  file_.Write(tail);
+  file_.Rewrite(0, head);
+  file_.Commit();
 }
 
 }  // namespace facet

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <span>
 #include <string>
 
@@ -12,8 +13,11 @@ namespace facet {
 
 bool LooksLikePng(std::span<const std::byte> bytes);
 
-// See DecodeImage; gives pieces of `piece_rows` rows, the last maybe fewer. The whole file must be there and every
-// checksum right.
+// See DecodeImage; gives pieces of `piece_rows` rows, the last maybe fewer. Every pixel must be there and the checksums
+// of all that makes them be right; what is broken elsewhere is Image::damage of the last piece.
 void DecodePng(std::span<const std::byte> bytes, const std::string& name, int piece_rows, const PieceReceiver& receive);
+
+// See ReadImageText.
+std::map<std::string, std::string> ReadPngText(std::span<const std::byte> bytes, const std::string& name);
 
 }  // namespace facet

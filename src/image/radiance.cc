@@ -161,7 +161,7 @@ Image DecodeRadiance(std::span<const std::byte> bytes, const std::string& name) 
     }
   }
   const Resolution size = ParseResolution(reader.Line(), reader, name);
-  CheckImageSize(size.width, size.height, name);
+  const MemoryLease lease = LeaseImage(size.width, size.height, size.height, 3 * sizeof(float), name);
   // The shortest row has 4 bytes: refuse a size that the file cannot hold before asking for its memory.
   if (reader.Left() / 4 < size.height) reader.Fail("the file is cut off");
 
@@ -171,7 +171,8 @@ Image DecodeRadiance(std::span<const std::byte> bytes, const std::string& name) 
   image.channels = 3;
   image.type = ChannelType::F32;
   image.encoding = Encoding::Linear;
-  image.bytes = AllocatePixels(image.PixelCount() * 3 * sizeof(float), name);
+  const std::size_t row_bytes = 3 * sizeof(float) * size.width;
+  ReservePixels(image.bytes, row_bytes * size.height, name);
   std::array<float, 256> scale{};  // exponent 0 is black
   for (int e = 1; e < 256; ++e) scale[static_cast<std::size_t>(e)] = std::ldexp(1.0f, e - 136);
 
@@ -179,12 +180,17 @@ Image DecodeRadiance(std::span<const std::byte> bytes, const std::string& name) 
   std::vector<std::uint8_t> plane(size.width);
   for (std::size_t y = 0; y < size.height; ++y) {
     ReadRow(reader, row, plane);
-    float* to = image.As<float>() + 3 * size.width * (size.bottom_up ? size.height - 1 - y : y);
+    image.bytes.resize(row_bytes * (y + 1));  // no row is touched before there is one in the file
+    float* to = image.As<float>() + 3 * size.width * y;
     for (std::size_t x = 0; x < size.width; ++x) {
       const Rgbe& pixel = row[size.right_to_left ? size.width - 1 - x : x];
       const float unit = scale[pixel[3]];
       for (std::size_t c = 0; c < 3; ++c) to[3 * x + c] = static_cast<float>(pixel[c]) * unit;
     }
+  }
+  for (std::size_t y = 0; size.bottom_up && y < size.height / 2; ++y) {
+    float* const row_above = image.As<float>() + 3 * size.width * y;
+    std::swap_ranges(row_above, row_above + 3 * size.width, image.As<float>() + 3 * size.width * (size.height - 1 - y));
   }
   return image;
 }

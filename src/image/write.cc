@@ -1,22 +1,19 @@
-// WriteImage of facet/film.h. PNG is written here, all else by OpenImageIO. OpenEXR gets linear light as floats with
-// the colours multiplied by alpha, as that format wants them (8 and 16 bits are decoded first); Radiance gets linear
-// light; TIFF keeps the numbers, alpha straight; the others 8 bits. A format that gets no alpha takes opaque pictures
-// only.
+// WriteImage of facet/film.h. PNG, JPEG and WebP are encoded here, all else by OpenImageIO. OpenEXR gets linear light as
+// floats with the colours multiplied by alpha, as that format wants them (8 and 16 bits are decoded first); Radiance
+// gets linear light; TIFF keeps the numbers, alpha straight; the others 8 bits. A format that gets no alpha takes opaque
+// pictures only.
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <cmath>
-#include <cstring>
 #include <string>
 #include <vector>
-
-#include <unistd.h>
 
 #include "facet/error.h"
 #include "facet/film.h"
 #include "image/codec.h"
 #include "image/convert.h"
+#include "image/jpeg.h"
 #include "image/oiio_loader.h"
+#include "image/webp.h"
 
 namespace facet {
 namespace {
@@ -32,18 +29,17 @@ struct Format {
 constexpr Format kFormats[] = {
     {".png", Holds::Png},           {".exr", Holds::LinearPremultiplied}, {".hdr", Holds::LinearOpaque},
     {".tif", Holds::Anything},      {".tiff", Holds::Anything},           {".jpg", Holds::BytesOpaque},
-    // OpenImageIO 2.4 divides the colours of WebP by alpha, whatever it is told.
-    {".jpeg", Holds::BytesOpaque},  {".webp", Holds::BytesOpaque},        {".bmp", Holds::BytesOpaque},
+    {".jpeg", Holds::BytesOpaque},  {".webp", Holds::Bytes},              {".bmp", Holds::BytesOpaque},
     {".tga", Holds::Bytes},         {".ppm", Holds::BytesOpaque},
 };
 
-Holds HoldsOf(const std::filesystem::path& path) {
+const Format& FormatByName(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
   std::string known;
   for (const Format& format : kFormats) {
-    if (extension == format.extension) return format.holds;
+    if (extension == format.extension) return format;
     known += (known.empty() ? "" : ", ") + std::string(format.extension);
   }
   throw Error(ErrorCode::InvalidUsage,
@@ -94,55 +90,54 @@ void Premultiply(Image& image, bool keep_glow) {
   }
 }
 
-// The encoder's own message seldom says that a folder is missing or may not be written to; this asks the system.
-void CheckFolderWritable(const std::filesystem::path& path) {
-  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
-  if (::access(folder.c_str(), W_OK | X_OK) == 0) return;
-  throw Error(ErrorCode::OutputFailed, std::string("cannot be written: ") + std::strerror(errno), path.string());
+// The image in the form that the format holds.
+Image FormFor(Holds holds, const Image& image, const std::filesystem::path& path) {
+  switch (holds) {
+    case Holds::LinearPremultiplied: {
+      Image form = ToLinear32F(image);
+      Premultiply(form, image.type == ChannelType::F32);
+      return form;
+    }
+    case Holds::LinearOpaque: return WithChannels(ToLinear32F(Opaque(image, path)), 3);
+    case Holds::Bytes: return Bytes(image, path);
+    case Holds::BytesOpaque: return Bytes(Opaque(image, path), path);
+    default: return image;
+  }
+}
+
+std::vector<std::byte> Encode(const Format& format, const Image& image, const std::filesystem::path& path,
+                              const TextMaker& make_text) {
+  if (format.holds == Holds::Png) return EncodePng(image, [&] { return make_text(image); });
+  const Image form = FormFor(format.holds, image, path);
+  const std::string extension = std::string(format.extension).substr(1);
+  if (extension == "jpg" || extension == "jpeg") return EncodeJpeg(form.channels == 2 ? WithChannels(form, 1) : form);
+  if (extension == "webp") return EncodeWebP(form.channels < 3 ? WithChannels(form, form.channels + 2) : form);
+  const bool is_exr = format.holds == Holds::LinearPremultiplied;
+  return EncodeWithOiio(extension, form, is_exr, is_exr ? make_text(form) : ImageText());
 }
 
 }  // namespace
 
 void WriteImage(const std::filesystem::path& path, const Image& image,
                 const std::vector<std::array<std::string, 2>>& text) {
-  WriteImageWithText(path, image, [&] { return text; });
+  WriteImageWithText(path, image, [&](const Image&) { return text; });
 }
 
-void WriteImageWithText(const std::filesystem::path& path, const Image& image,
-                        const std::function<PngText()>& make_text) {
-  const Holds holds = HoldsOf(path);
-  CheckImage(image, path.c_str());
-  if (holds == Holds::Png) return WriteFileWhole(path, EncodePng(image, make_text));
+Image StoredForm(const std::filesystem::path& path, const Image& image) {
+  return FormFor(FormatByName(path).holds, image, path);
+}
 
-  bool premultiplied = false;
-  Image form;
-  switch (holds) {
-    case Holds::LinearPremultiplied:
-      form = ToLinear32F(image);
-      Premultiply(form, image.type == ChannelType::F32);
-      premultiplied = true;
-      break;
-    case Holds::LinearOpaque:
-      form = WithChannels(ToLinear32F(Opaque(image, path)), 3);
-      break;
-    case Holds::Bytes:
-      form = Bytes(image, path);
-      break;
-    case Holds::BytesOpaque:
-      form = Bytes(Opaque(image, path), path);
-      break;
-    default:
-      form = image;
+void WriteImageWithText(const std::filesystem::path& path, const Image& image, const TextMaker& make_text) {
+  const Format& format = FormatByName(path);
+  CheckImage(image, path.c_str());
+  OutputFile file(path);  // before the work: it may not be writable
+  try {
+    file.Write(Encode(format, image, path, make_text));
+  } catch (const Error& error) {
+    if (!error.where().empty()) throw;
+    throw Error(error.code(), error.message(), path.string(), error.hint());
   }
-  CheckFolderWritable(path);
-  RequireOiio();
-  WriteFileWhole(path, [&](const std::filesystem::path& temporary) {
-    try {
-      EncodeWithOiio(temporary, form, premultiplied);
-    } catch (const Error& error) {
-      throw Error(error.code(), error.message(), path.string(), error.hint());
-    }
-  });
+  file.Commit();
 }
 
 }  // namespace facet

@@ -21,6 +21,8 @@
 #include <vector>
 
 #include "base/float_environment.h"
+#include "base/input_file.h"
+#include "base/output_file.h"
 #include "base/parallel.h"
 #include "base/sha256.h"
 #include "facet/error.h"
@@ -128,8 +130,8 @@ class CachedEnvironment final : public EnvironmentSource {
     const OpenFile file(std::filesystem::is_regular_file(picture_, ignored) ? picture_ : std::filesystem::path());
     const std::uint64_t file_size = file.Size();
     if (file_size == 0) {
-      bytes_ = ReadFileWhole(picture_);
-      digest_ = DigestOf(bytes_);
+      bytes_ = ReadFile(picture_);
+      digest_ = DigestOf(bytes_.Span());
       return;
     }
     Sha256 hash;
@@ -143,13 +145,13 @@ class CachedEnvironment final : public EnvironmentSource {
 
   std::shared_ptr<const Image> Picture() const override {
     const FloatEnvironment pinned;
-    if (!bytes_.empty()) return std::make_shared<const Image>(DecodeImage(bytes_, picture_.string()));
-    const std::vector<std::byte> bytes = ReadFileWhole(picture_);
+    if (bytes_.size > 0) return std::make_shared<const Image>(DecodeImage(bytes_.Span(), picture_.string()));
+    const Bytes bytes = ReadFile(picture_);
     // Otherwise another picture would be kept in its name.
-    if (DigestOf(bytes) != digest_) {
+    if (DigestOf(bytes.Span()) != digest_) {
       throw Error(ErrorCode::InvalidInput, "was changed while it was in use", picture_.string());
     }
-    return std::make_shared<const Image>(DecodeImage(bytes, picture_.string()));
+    return std::make_shared<const Image>(DecodeImage(bytes.Span(), picture_.string()));
   }
 
   std::shared_ptr<const EnvironmentMap> Find(const EnvironmentOptions& options,
@@ -219,13 +221,9 @@ class CachedEnvironment final : public EnvironmentSource {
     std::error_code failure;
     std::filesystem::create_directories(folder_, failure);
     if (failure) return nothing_kept + folder_.string() + ": cannot be made: " + failure.message();
-    // Nothing is written through a link or into a pipe that somebody put there.
-    const auto place = std::filesystem::symlink_status(PathOf(header.key), failure).type();
-    if (place != std::filesystem::file_type::not_found && place != std::filesystem::file_type::regular) {
-      return nothing_kept + PathOf(header.key).string() + ": cannot be written: it is no file";
-    }
     try {
-      WriteFileWhole(PathOf(header.key), {std::as_bytes(std::span(&header, 1)), texels, picture});
+      // Others may write to the folder too: what they put there is not written through.
+      WriteFile(PathOf(header.key), {std::as_bytes(std::span(&header, 1)), texels, picture}, OutputFile::Links::Refuse);
     } catch (const Error& error) {
       return nothing_kept + error.what();
     }
@@ -251,7 +249,7 @@ class CachedEnvironment final : public EnvironmentSource {
   std::filesystem::path PathOf(const Digest& key) const { return folder_ / (ToHex(key) + ".environment"); }
 
   std::filesystem::path picture_, folder_;
-  std::vector<std::byte> bytes_;  // of what cannot be read twice
+  Bytes bytes_;  // of what cannot be read twice
   Digest digest_;
 };
 

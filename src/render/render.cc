@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/bytes_text.h"
+#include "base/memory_budget.h"
 #include "base/pages.h"
 #include "base/parallel.h"
 #include "facet/error.h"
@@ -20,7 +21,6 @@
 #include "plan/frame_plan.h"
 #include "render/frame_view.h"
 #include "render/geometry_pass.h"
-#include "render/memory_budget.h"
 #include "render/texture_pass.h"
 #include "render/tile_pass.h"
 #include "scene/camera.h"
@@ -61,7 +61,6 @@ void CheckSettings(const RenderSettings& s) {
   if (s.samples != 1 && s.samples != 2 && s.samples != 4 && s.samples != 8) {
     Refuse(std::to_string(s.samples) + " samples per pixel", "1, 2, 4 or 8 are accepted");
   }
-  if (s.threads < 0) Refuse(std::to_string(s.threads) + " threads", "0 (one per core) or more are accepted");
   if (s.max_anisotropy < 1 || s.max_anisotropy > 16) {
     Refuse("a maximal anisotropy of " + std::to_string(s.max_anisotropy), "1 to 16 are accepted");
   }
@@ -101,24 +100,25 @@ std::size_t BytesOf(const Primitives& primitives) {
 void Count(const Image& picture, const EnvironmentOptions& options, MemoryBudget& budget) {
   const auto size = std::size_t(SharpestLevelSize(picture.width, options.max_size));
   const std::size_t floats = picture.PixelCount() * (options.keep_picture ? 2 : 1) + 3 * size * size;
-  budget.Add(picture.bytes.size() + floats * 4 * sizeof(float),
-             "an environment of " + std::to_string(picture.width) + " x " + std::to_string(picture.height) + " pixels",
-             "scale it down");
+  budget.Charge(
+      picture.bytes.size() + floats * 4 * sizeof(float), 1,
+      "an environment of " + std::to_string(picture.width) + " x " + std::to_string(picture.height) + " pixels", {},
+      "scale it down");
 }
 
 std::size_t BytesOf(const EnvironmentMap& map) { return (map.texels.size() + map.picture.size()) * sizeof(float); }
 
+constexpr const char* kPrepared = "a prepared environment";
+
 void CountPrepared(std::uint64_t bytes, MemoryBudget& budget) {
-  budget.Add(bytes, "a prepared environment", "scale its picture down");
+  budget.Charge(bytes, 1, kPrepared, {}, "scale its picture down");
 }
 
 std::shared_ptr<const EnvironmentMap> FromSource(const EnvironmentSource& source, const EnvironmentOptions& options,
                                                  MemoryBudget& budget, std::vector<std::string>& warnings) {
-  MemoryBudget with_kept = budget;  // what is found but is of no use takes no memory
-  if (auto kept = source.Find(options, [&](std::uint64_t bytes) { CountPrepared(bytes, with_kept); })) {
-    budget = with_kept;
-    return kept;
-  }
+  std::uint64_t admitted = 0;
+  if (auto kept = source.Find(options, [&](std::uint64_t bytes) { CountPrepared(admitted = bytes, budget); })) return kept;
+  budget.Release(admitted, kPrepared);  // what is found but is of no use takes no memory
   const auto picture = source.Picture();
   Count(*picture, options, budget);
   auto map = PrefilterEnvironment(*picture, options);
@@ -158,18 +158,22 @@ class Renderer::Frames {
         output.max_rows >= settings.height ? grid.rows : std::max(output.max_rows / grid.tile_size, 1);
     const int band_rows = std::min(band_tiles * grid.tile_size, settings.height);
     MemoryBudget budget(settings.memory_limit);
-    budget.Add(std::uint64_t(settings.width) * std::uint64_t(band_rows) * output.PixelBytes(),
-               (output.film != nullptr ? "a film of " : "a picture of ") + std::to_string(settings.width) + " x " +
-                   std::to_string(band_rows) + " pixels",
-               "make the picture smaller");
+    const MemoryBudget::Scope scope(budget);
+    budget.Charge(std::uint64_t(settings.width) * std::uint64_t(band_rows), output.PixelBytes(),
+                  (output.film != nullptr ? "a film of " : "a picture of ") + std::to_string(settings.width) + " x " +
+                      std::to_string(band_rows) + " pixels",
+                  {}, "make the picture smaller");
     std::size_t geometry_bytes = 0;
     for (const Mesh& mesh : scene_.meshes) geometry_bytes += BytesOf(mesh.primitives);
-    budget.Add(geometry_bytes, "geometry", "leave some out");
+    budget.Charge(geometry_bytes, 1, "geometry", {}, "leave some out");
     const PosedScene& posed = Posed(PoseOf(settings));
     FramePlan plan = MakeFramePlan(scene_, posed, settings);
     stats.left_out = plan.left_out;
-    const FrameView view = MakeFrameView(ResolveCamera(settings.camera, scene_, posed, settings.width, settings.height),
-                                         settings.width, settings.height);
+    const ResolvedCamera camera =
+        ResolveCamera(settings.camera, scene_, posed, settings.width, settings.height, &known_ball_);
+    stats.camera = {camera.world_from_camera, camera.lens};
+    stats.camera_target_distance = camera.target_distance;
+    const FrameView view = MakeFrameView(camera, settings.width, settings.height);
     stats.pose_seconds = stage.Lap();
 
     RunGeometry(view, posed, plan, grid, settings.samples, geometry_, stats);
@@ -298,6 +302,7 @@ class Renderer::Frames {
   const Scene& scene_;
   PoseSettings pose_;
   std::optional<PosedScene> posed_;
+  KnownBall known_ball_;
   std::vector<Primitive> completed_;  // in place of posed_->incomplete; empty: was not visible yet
   FrameGeometry geometry_;
   FrameTextures textures_;

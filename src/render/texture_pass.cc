@@ -56,8 +56,8 @@ void CheckSizes(const Scene& scene, const std::vector<bool>& needed, TexelBits t
     of_largest = source.Name() + ", " + size + ", " + BytesText(bytes);
   }
   if (sum > 0.0) {
-    budget.Add(static_cast<std::uint64_t>(sum), "textures (the largest: " + of_largest + ")",
-               "scale them down, or leave some out");
+    budget.Charge(static_cast<std::uint64_t>(sum), 1, "textures (the largest: " + of_largest + ")", {},
+                  "scale them down, or leave some out");
   }
 }
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "base/memory_budget.h"
 #include "facet/render.h"
 #include "plan/frame_plan.h"
-#include "render/memory_budget.h"
 #include "texture/texture.h"
 
 namespace facet {

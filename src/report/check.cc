@@ -6,9 +6,11 @@
 #include <functional>
 #include <new>
 #include <regex>
-#include <span>
 #include <utility>
 
+#include "base/input_file.h"
+#include "base/memory_budget.h"
+#include "base/output_file.h"
 #include "base/parallel.h"
 #include "base/printable.h"
 #include "facet/error.h"
@@ -38,20 +40,20 @@ Error Placed(const Manifest& manifest, const ManifestEntry& entry, const Error& 
     return at(SettingPointer(entry, where.substr(2, where.find(' ') - 2)), error.message());
   }
   const std::optional<std::filesystem::path>& sky = entry.request.environment;
-  const bool of_sky = sky && where.starts_with((manifest.folder / *sky).string());
+  const bool of_sky = sky && where.starts_with((manifest.path.parent_path() / *sky).string());
   return at(of_sky ? SettingPointer(entry, "environment") : entry.pointer + "/scene", where + ": " + error.message());
 }
 
 // A golden picture, as a file and decoded.
 struct Golden {
-  std::vector<std::byte> file;
+  Bytes file;
   Image image;
 };
 
 Golden LoadGolden(const std::filesystem::path& path) {
   Golden golden;
-  golden.file = ReadFileWhole(path);
-  golden.image = DecodeImage(golden.file, Printable(path.string()));
+  golden.file = ReadFile(path, {.regular_only = true});
+  golden.image = DecodeImage(golden.file.Span(), Printable(path.string()));
   if (golden.image.type == ChannelType::F32) {
     throw Error(ErrorCode::InvalidInput, "is no PNG", Printable(path.string()));
   }
@@ -95,17 +97,21 @@ std::string Blame(const ExpectedInputs& expected, const ExpectedInputs& actual) 
 // Runs one entry.
 class Check {
  public:
-  Check(const Manifest& manifest, std::size_t index, const CheckOptions& options, int threads)
+  // `pictures`: what all pictures that are kept may take.
+  Check(const Manifest& manifest, std::size_t index, const CheckOptions& options, int threads, MemoryBudget& pictures)
       : manifest_(manifest),
         entry_(manifest.entries[index]),
         expect_(entry_.expect),
         index_(index),
         options_(options),
-        threads_(threads) {}
+        threads_(threads),
+        pictures_(pictures) {}
 
   // The result, and what shall stand in the manifest from now on.
   std::pair<CheckedEntry, std::optional<NewExpectation>> Run() {
     const Clock::time_point start = Clock::now();
+    MemoryBudget budget(options_.load.memory_limit);  // of what is neither loading nor rendering
+    const MemoryBudget::Scope scope(budget);
     result_.name = entry_.name;
     result_.place = PlaceIn(manifest_, entry_.pointer);
     result_.expected_film = expect_.film;
@@ -113,17 +119,27 @@ class Check {
       if (entry_.problem) throw Error(*entry_.problem);
       Decide();
     } catch (const Error& error) {
+      out_of_memory_ = error.code() == ErrorCode::OutOfMemory;
       const bool placed = error.where().starts_with(manifest_.name);
       if (placed) result_.place = error.where();
       SetError(placed ? std::string(error.what()).substr(error.where().size() + 2) : error.what());
     } catch (const std::bad_alloc&) {
+      out_of_memory_ = true;
       SetError("the machine has too little memory; fewer threads need less");
     } catch (const std::exception& error) {
       SetError(std::string("a defect of facet: ") + error.what());
     }
+    if (options_.strict && !result_.warnings.empty() &&
+        (result_.verdict == Verdict::Passed || result_.verdict == Verdict::Within)) {
+      result_.verdict = Verdict::Failed;
+      result_.message = "has a warning, and all count as failures: " + Printable(result_.warnings.front()) +
+                        (result_.message.empty() ? "" : "; ") + result_.message;
+    }
     result_.seconds = SecondsSince(start);
     return {std::move(result_), std::move(update_)};
   }
+
+  bool out_of_memory() const { return out_of_memory_; }
 
  private:
   void SetError(const std::string& message) {
@@ -148,9 +164,12 @@ class Check {
     }
     const Image actual = Develop(film, entry_.request.display, entry_.request.type);
     film = {};
-    const std::optional<Golden> golden = FindGolden(actual);
+    const std::optional<Golden> golden = FindGolden();
     if (golden && actual.width == golden->image.width && actual.height == golden->image.height) {
-      result_.difference = CompareImages(golden->image, actual);
+      result_.difference = CompareImages(golden->image, actual, {.memory_limit = options_.load.memory_limit});
+    } else if (golden) {
+      other_size_ = "the golden picture is " + SizeText(golden->image.width, golden->image.height) + ", the rendering " +
+                    SizeText(actual.width, actual.height) + ": the setting 'size', or --update, makes them one";
     }
     if (same_film) {
       JudgePicture();
@@ -166,31 +185,34 @@ class Check {
 
   RenderInputs Load() const {
     try {
-      return LoadInputs(manifest_.folder / entry_.scene, entry_.request, {}, manifest_.folder);
+      const std::filesystem::path& root = options_.load.root;
+      return LoadInputs(DataPath(manifest_.path, entry_.scene, root), entry_.request, options_.load,
+                        {manifest_.path, root});
     } catch (const Error& error) {
       throw Placed(manifest_, entry_, error);
     }
   }
 
   // None where none is listed, or where it is to be replaced anyway.
-  std::optional<Golden> FindGolden(const Image& actual) const {
+  std::optional<Golden> FindGolden() const {
     if (!expect_.picture) return std::nullopt;
-    const std::filesystem::path path = manifest_.folder / *expect_.picture;
-    const std::string place = PlaceIn(manifest_, entry_.pointer + "/expect/picture");
+    const std::filesystem::path path = PicturePath();
     try {
-      Golden golden = LoadGolden(path);
-      const Image& image = golden.image;
-      if (!options_.update && (image.width != actual.width || image.height != actual.height)) {
-        throw Error(
-            ErrorCode::InvalidInput,
-            "is " + SizeText(image.width, image.height) + ", the rendering " + SizeText(actual.width, actual.height),
-            Printable(path.string()), "the setting 'size', or --update, makes them one");
-      }
-      return golden;
+      return LoadGolden(path);
     } catch (const Error& error) {
       if (options_.update) return std::nullopt;
       const std::string hint = error.hint().empty() ? "--update writes it anew" : error.hint();
-      throw Error(error.code(), error.where() + ": " + error.message(), place, hint);
+      throw Error(error.code(), error.where() + ": " + error.message(), PicturePlace(), hint);
+    }
+  }
+
+  std::string PicturePlace() const { return PlaceIn(manifest_, entry_.pointer + "/expect/picture"); }
+
+  std::filesystem::path PicturePath() const {
+    try {
+      return DataPath(manifest_.path, *expect_.picture, options_.load.root);
+    } catch (const Error& error) {
+      throw Error(error.code(), error.message(), PicturePlace(), error.hint());
     }
   }
 
@@ -200,8 +222,8 @@ class Check {
     const bool within =
         difference && expect_.has_thresholds && BrokenThresholds(*difference, expect_.thresholds).empty();
     result_.verdict = within || (difference && difference->equal) ? Verdict::Passed : Verdict::Failed;
-    if (result_.verdict == Verdict::Failed && difference) {
-      result_.message = "the film is equal, the developed picture is not: " + Summary(*difference);
+    if (result_.verdict == Verdict::Failed) {
+      result_.message = difference ? "the film is equal, the developed picture is not: " + Summary(*difference) : other_size_;
     }
   }
 
@@ -210,9 +232,10 @@ class Check {
     const std::optional<ImageDifference>& difference = result_.difference;
     result_.verdict = Verdict::Failed;
     if (!difference) {
-      result_.message = expect_.film      ? "the film differs"
-                        : expect_.picture ? "there is no golden picture of this size"  // to be updated
-                                          : "has no expectation; run with --update";
+      result_.message = !other_size_.empty()  ? other_size_
+                        : expect_.film      ? "the film differs"
+                        : expect_.picture   ? "there is no golden picture"  // to be updated
+                                            : "has no expectation; run with --update";
       return;
     }
     const bool by_picture = !expect_.film || expect_.has_thresholds;
@@ -245,7 +268,7 @@ class Check {
     }
     if (!update) return;
     if (expect_.picture && !(result_.difference && result_.difference->equal)) {
-      WritePicture(actual);
+      WritePicture(actual, InputsOf(inputs));
       done.push_back("picture written");
     }
     const bool was_there = expect_.film || result_.difference;
@@ -253,19 +276,38 @@ class Check {
     result_.message = Joined(done) + (was_there && !same_film ? "; " + result_.message : "");
   }
 
-  void WritePicture(const Image& actual) const {
-    const std::filesystem::path path = manifest_.folder / *expect_.picture;
-    std::error_code ignored;  // WriteFileWhole says it better
+  void WritePicture(const Image& actual, const std::vector<std::filesystem::path>& inputs) const {
+    const std::filesystem::path path = PicturePath();
+    RefuseOverwriting({path}, inputs);
+    std::error_code ignored;  // writing says it better
     std::filesystem::create_directories(path.parent_path(), ignored);
     const Provenance provenance{Version(), entry_.scene.filename().string(), SpelledOut(entry_.request), *result_.film,
                                 HashImage(actual)};
-    WriteFileWhole(path, EncodePng(actual, ToPngText(provenance)));
+    WriteFile(path, EncodePng(actual, ToImageText(provenance)), OutputFile::Links::Refuse);
   }
 
   void KeepPictures(const std::optional<Golden>& golden, const Image& actual) {
     result_.actual = EncodePng(actual);
-    if (golden) result_.expected = golden->file;
+    if (golden) result_.expected.assign(golden->file.data, golden->file.data + golden->file.size);
     if (result_.difference) result_.heat_map = EncodePng(HeatMap(*result_.difference));
+    try {
+      pictures_.Charge(result_.actual.size() + result_.expected.size() + result_.heat_map.size(), 1, "pictures");
+    } catch (const Error&) {
+      result_.actual = result_.expected = result_.heat_map = {};
+      result_.warnings.push_back("its pictures are not kept: those of earlier entries have reached the memory limit");
+    }
+  }
+
+  // What an update must not write over: the entry's files, and the scenes of all.
+  std::vector<std::filesystem::path> InputsOf(const RenderInputs& inputs) const {
+    std::vector<std::filesystem::path> files = inputs.loaded.report.files;
+    const std::filesystem::path folder = manifest_.path.parent_path();
+    for (const ManifestEntry& other : manifest_.entries) {
+      files.push_back(folder / other.scene);
+      if (other.request.environment) files.push_back(folder / *other.request.environment);
+    }
+    files.push_back(manifest_.path);
+    return files;
   }
 
   const Manifest& manifest_;
@@ -274,6 +316,9 @@ class Check {
   const std::size_t index_;
   const CheckOptions& options_;
   const int threads_;
+  MemoryBudget& pictures_;
+  bool out_of_memory_ = false;
+  std::string other_size_;  // what is wrong where the golden picture has another size than the rendering
   CheckedEntry result_;
   std::optional<NewExpectation> update_;
 };
@@ -314,7 +359,7 @@ std::size_t CheckReport::Count(Verdict verdict) const {
 
 CheckReport CheckManifest(const std::filesystem::path& path, const CheckOptions& options) {
   const Clock::time_point start = Clock::now();
-  if (options.threads < 0) throw Error(ErrorCode::InvalidUsage, "a negative number of threads", "threads");
+  CheckThreads(options.threads);
   const Manifest manifest = ReadManifest(path);
   CheckReport report;
   report.manifest = manifest.name;
@@ -327,10 +372,21 @@ CheckReport CheckManifest(const std::filesystem::path& path, const CheckOptions&
   const int most = static_cast<int>(std::min<std::size_t>(selected.size(), 16384));
   const int beside = options.threads == 0 ? 0 : std::max(1, std::min(options.threads, most));
   const int each = options.threads == 0 ? 0 : options.threads / beside;
+  MemoryBudget pictures(options.load.memory_limit);
+  std::vector<std::uint8_t> refused(selected.size());
+  const auto run = [&](std::size_t i, const CheckOptions& limited) {
+    Check check(manifest, selected[i], limited, each, pictures);
+    std::tie(report.entries[i], updates[i]) = check.Run();
+    refused[i] = check.out_of_memory();
+  };
   RunWithThreads(beside, [&] {
-    ParallelFor(selected.size(), 1, [&](std::size_t i, std::size_t) {
-      std::tie(report.entries[i], updates[i]) = Check(manifest, selected[i], options, each).Run();
-    });
+    CheckOptions share = options;
+    share.load.memory_limit = pictures.limit() / std::min<std::uint64_t>(CurrentThreadCount(), selected.size());
+    ParallelFor(selected.size(), 1, [&](std::size_t i, std::size_t) { run(i, share); });
+    // What did not fit beside the others has all memory for itself now: what is refused does not depend on threads.
+    for (std::size_t i = 0; i < selected.size(); ++i) {
+      if (refused[i]) run(i, options);
+    }
   });
 
   std::vector<NewExpectation> expectations;
@@ -339,7 +395,7 @@ CheckReport CheckManifest(const std::filesystem::path& path, const CheckOptions&
   }
   if (!expectations.empty()) {
     const std::string text = Rewritten(manifest, expectations);
-    WriteFileWhole(path, std::as_bytes(std::span(text)));
+    WriteFile(path, text);
   }
   report.seconds = SecondsSince(start);
   return report;

@@ -100,6 +100,8 @@ std::string Films(const CheckedEntry& entry) {
   return html.empty() ? html : "<p>Film: " + html + "</p>\n";
 }
 
+std::string Warning(const std::string& text) { return "Warning: " + Escaped(text); }
+
 std::string Row(const CheckedEntry& entry, std::size_t index, bool has_section) {
   const std::string name = Escaped(entry.name);
   std::string what = Escaped(entry.message);
@@ -107,6 +109,9 @@ std::string Row(const CheckedEntry& entry, std::size_t index, bool has_section) 
     what += (what.empty() ? "" : "; ") + std::string("film <code>") + ToHex(*entry.film) + "</code>";
   }
   if (entry.verdict == Verdict::Error) what += "<br><code>" + Escaped(entry.place) + "</code>";
+  if (!has_section) {
+    for (const std::string& warning : entry.warnings) what += (what.empty() ? "" : "<br>") + Warning(warning);
+  }
   return "<tr class=\"" + std::string(NameOf(entry.verdict)) + "\"><td>" +
          (has_section ? "<a href=\"#entry-" + std::to_string(index) + "\">" + name + "</a>" : name) + "</td><td>" +
          Word(entry.verdict) + "</td><td class=\"number\">" + SecondsText(entry.seconds) + "&nbsp;s</td><td>" + what +
@@ -123,7 +128,7 @@ std::string Section(const CheckedEntry& entry, std::size_t index) {
   if (!pictures.empty()) html += "<div class=\"pictures\">\n" + pictures + "</div>\n";
   if (entry.difference) html += Numbers(*entry.difference);
   html += Films(entry);
-  for (const std::string& warning : entry.warnings) html += "<p>Warning: " + Escaped(warning) + "</p>\n";
+  for (const std::string& warning : entry.warnings) html += "<p>" + Warning(warning) + "</p>\n";
   return html + "</section>\n";
 }
 

@@ -32,6 +32,13 @@ std::string Hashes(const CheckedEntry& entry) {
   return text.empty() ? text : text + ")";
 }
 
+// What the loader and the renderer noticed: a missing texture, say. Readers show it as the test's output.
+std::string Warnings(const CheckedEntry& entry) {
+  std::string lines;
+  for (const std::string& warning : entry.warnings) lines += "warning: " + Escaped(warning) + "\n";
+  return lines.empty() ? lines : "      <system-out>" + lines + "      </system-out>\n";
+}
+
 }  // namespace
 
 std::string JUnitXml(const CheckReport& report) {
@@ -47,13 +54,14 @@ std::string JUnitXml(const CheckReport& report) {
   }
   for (const CheckedEntry& entry : report.entries) {
     xml += "    <testcase" + suite + Attribute("name", entry.name) + Attribute("time", SecondsText(entry.seconds));
+    std::string content;
     if (entry.verdict == Verdict::Failed) {
-      xml += ">\n" + Complaint("failure", "differs", entry.message + Hashes(entry), entry.place) + "    </testcase>\n";
+      content = Complaint("failure", "differs", entry.message + Hashes(entry), entry.place);
     } else if (entry.verdict == Verdict::Error) {
-      xml += ">\n" + Complaint("error", "error", entry.message, entry.place) + "    </testcase>\n";
-    } else {
-      xml += "/>\n";
+      content = Complaint("error", "error", entry.message, entry.place);
     }
+    content += Warnings(entry);
+    xml += content.empty() ? "/>\n" : ">\n" + content + "    </testcase>\n";
   }
   return xml + "  </testsuite>\n</testsuites>\n";
 }

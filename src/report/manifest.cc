@@ -5,8 +5,9 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "base/input_file.h"
+#include "base/json_depth.h"
 #include "base/printable.h"
-#include "image/codec.h"
 
 namespace facet {
 namespace {
@@ -143,30 +144,38 @@ void ReadEntry(const Value& value, ManifestEntry& entry) {
   if (value.Has("expect")) entry.expect = ReadExpectation(value["expect"]);
 }
 
-// JSON lets a key stand twice and keeps the last value: one of two that somebody meant.
-class TwiceGivenKeys {
+// JSON lets a key stand twice and keeps the last value: one of two that somebody meant. No object of a manifest has very
+// many keys, and those of the parser take time that grows with their square.
+class KeyGuard {
  public:
-  explicit TwiceGivenKeys(const std::string& file) : file_(file) {}
+  explicit KeyGuard(const std::string& file) : file_(file) {}
   bool operator()(int, Json::parse_event_t event, const Json& value) {
     if (event == Json::parse_event_t::object_start) {
       seen_.emplace_back();
     } else if (event == Json::parse_event_t::object_end) {
       seen_.pop_back();
-    } else if (event == Json::parse_event_t::key && !seen_.back().insert(value.get<std::string>()).second) {
-      throw Error(ErrorCode::InvalidInput, "the key " + Quoted(value.get<std::string>()) + " is twice in one object",
-                  file_);
+    } else if (event == Json::parse_event_t::key) {
+      constexpr std::size_t kMostKeys = 1000;
+      const bool is_new = seen_.back().insert(value.get<std::string>()).second;
+      if (!is_new) Fail("the key " + Quoted(value.get<std::string>()) + " is twice in one object");
+      if (seen_.back().size() > kMostKeys) Fail("an object has more than " + std::to_string(kMostKeys) + " keys");
     }
     return true;
   }
 
  private:
+  void Fail(const std::string& message) const { throw Error(ErrorCode::InvalidInput, message, file_); }
+
   const std::string& file_;
   std::vector<std::set<std::string>> seen_;
 };
 
 Json Parse(const std::string& text, const std::string& file) {
+  if (IsJsonDeeperThan(text, kMaxJsonDepth)) {
+    throw Error(ErrorCode::InvalidInput, "JSON is nested deeper than " + std::to_string(kMaxJsonDepth) + " levels", file);
+  }
   try {
-    return Json::parse(text, TwiceGivenKeys(file));
+    return Json::parse(text, KeyGuard(file));
   } catch (const Json::parse_error& error) {
     const std::string before = text.substr(0, error.byte == 0 ? 0 : error.byte - 1);
     const auto line = 1 + std::count(before.begin(), before.end(), '\n');
@@ -205,9 +214,8 @@ std::string SettingPointer(const ManifestEntry& entry, std::string_view setting)
 Manifest ReadManifest(const std::filesystem::path& path) {
   Manifest manifest;
   manifest.name = Printable(path.string());
-  manifest.folder = path.parent_path();
-  const std::vector<std::byte> bytes = ReadFileWhole(path);
-  manifest.text.assign(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  manifest.path = path;
+  manifest.text = ReadFile(path).Text();
   const Json json = Parse(manifest.text, manifest.name);
   const Value root{json, Json::json_pointer(), manifest.name};
   root.Expect(json.is_object(), "manifest: a JSON object");
@@ -223,6 +231,7 @@ Manifest ReadManifest(const std::filesystem::path& path) {
   if (!root.Has("entries")) root.Fail("has no 'entries'");
   const Value entries = root["entries"];
   entries.Expect(entries.json.is_array(), "list");
+  if (entries.json.empty()) entries.Fail("is empty: there is nothing to check", "list a scene at least");
 
   std::map<std::string, std::string> pointer_of_name, pointer_of_picture;
   for (std::size_t i = 0; i < entries.json.size(); ++i) {

@@ -40,7 +40,7 @@ struct ManifestEntry {
 
 struct Manifest {
   std::string name;              // what messages call it
-  std::filesystem::path folder;  // what paths in it are relative to
+  std::filesystem::path path;    // what it was read from: paths in it are relative to its folder
   std::string text;
   std::vector<ManifestEntry> entries;
   std::vector<Error> problems;  // that concern no single entry

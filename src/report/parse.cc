@@ -9,6 +9,7 @@
 #include "base/bytes_text.h"
 #include "base/printable.h"
 #include "facet/error.h"
+#include "report/css_colors.h"
 
 namespace facet {
 namespace {
@@ -43,23 +44,6 @@ std::vector<std::string_view> Split(std::string_view text, char separator) {
     text.remove_prefix(at + 1);
   }
 }
-
-struct NamedColor {
-  std::string_view name;
-  std::uint32_t rgb;
-};
-
-// CSS Color Module Level 4: the sixteen basic colours, and the greys and brighter tones that backgrounds are made of.
-constexpr std::array<NamedColor, 31> kColors = {{
-    {"aqua", 0x00ffff},    {"beige", 0xf5f5dc},      {"black", 0x000000},     {"blue", 0x0000ff},
-    {"cyan", 0x00ffff},    {"darkgray", 0xa9a9a9},   {"darkgrey", 0xa9a9a9},  {"dimgray", 0x696969},
-    {"dimgrey", 0x696969}, {"fuchsia", 0xff00ff},    {"gray", 0x808080},      {"green", 0x008000},
-    {"grey", 0x808080},    {"ivory", 0xfffff0},      {"lightgray", 0xd3d3d3}, {"lightgrey", 0xd3d3d3},
-    {"lime", 0x00ff00},    {"magenta", 0xff00ff},    {"maroon", 0x800000},    {"navy", 0x000080},
-    {"olive", 0x808000},   {"orange", 0xffa500},     {"purple", 0x800080},    {"red", 0xff0000},
-    {"silver", 0xc0c0c0},  {"skyblue", 0x87ceeb},    {"slategray", 0x708090}, {"teal", 0x008080},
-    {"white", 0xffffff},   {"whitesmoke", 0xf5f5f5}, {"yellow", 0xffff00},
-}};
 
 glm::vec3 FromHex(std::uint32_t rgb) {
   const auto channel = [rgb](int shift) { return static_cast<float>((rgb >> shift) & 0xffu) / 255.0f; };
@@ -141,7 +125,8 @@ int ParseInteger(std::string_view option, std::string_view text, int low, int hi
 
 Size ParseSize(std::string_view option, std::string_view text) {
   constexpr std::int64_t kMost = 16384;
-  const std::vector<std::string_view> parts = Split(text, 'x');
+  std::vector<std::string_view> parts = Split(text, 'x');
+  if (parts.size() == 1) parts.push_back(parts[0]);
   std::array<std::int64_t, 2> sides = {0, 0};
   bool good = parts.size() == 2;
   for (std::size_t i = 0; good && i < 2; ++i) {
@@ -149,7 +134,7 @@ Size ParseSize(std::string_view option, std::string_view text) {
     const auto [stop, error] = std::from_chars(parts[i].data(), end, sides[i]);
     good = error == std::errc() && stop == end && sides[i] >= 1;
   }
-  const std::string hint = "give WIDTHxHEIGHT in pixels, each from 1 to 16384, such as 1280x720";
+  const std::string hint = "give WIDTHxHEIGHT in pixels, each from 1 to 16384, such as 1280x720, or one number for a square";
   if (!good) Refuse(option, text, "a size", hint);
   if (sides[0] > kMost || sides[1] > kMost) {
     const double bytes_per_pixel = sizeof(glm::vec4);  // of linear light
@@ -187,8 +172,8 @@ Orbit ParseOrbit(std::string_view option, std::string_view text) {
   }
   if (!good || numbers[2] < 0.0) {
     Refuse(option, text, "an orbit",
-           "give THETA,PHI,RADIUS: two angles in degrees and a distance of at least 0 (0 frames the scene), "
-           "such as 30,75,4");
+           "give THETA,PHI or THETA,PHI,RADIUS: two angles from -36000 to 36000 degrees, and a distance of at most 1e12 "
+           "(0, or none: the distance that shows the scene from every side), such as 30,75 or 30,75,4");
   }
   Orbit orbit{numbers[0], numbers[1], std::nullopt};
   if (numbers[2] > 0.0) orbit.radius = numbers[2];
@@ -207,16 +192,14 @@ glm::vec3 ParseColor(std::string_view option, std::string_view text) {
       return FromHex(value);
     }
   }
-  for (const NamedColor& color : kColors) {
-    if (color.name == text) return FromHex(color.rgb);
+  std::string name(text);
+  for (char& c : name) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   }
-  Refuse(option, text, "a colour", "give #rgb, #rrggbb or a name such as white, black or grey");
-}
-
-std::vector<std::string_view> ColorNames() {
-  std::vector<std::string_view> names;
-  for (const NamedColor& color : kColors) names.push_back(color.name);
-  return names;
+  for (const NamedColor& color : kCssColors) {
+    if (color.name == name) return FromHex(color.rgb);
+  }
+  Refuse(option, text, "a colour", "give #rgb, #rrggbb or a name of CSS such as white, black or grey");
 }
 
 int ParseChoice(std::string_view option, std::string_view text, const std::vector<std::string_view>& choices) {

@@ -35,7 +35,7 @@ struct Size {
   int height;
 };
 
-// WIDTHxHEIGHT in pixels, each 1 to 16384.
+// WIDTHxHEIGHT in pixels, each 1 to 16384; one number is both.
 Size ParseSize(std::string_view option, std::string_view text);
 
 // X,Y,Z: three finite numbers.
@@ -49,11 +49,8 @@ struct Orbit {
 };
 Orbit ParseOrbit(std::string_view option, std::string_view text);
 
-// #rgb, #rrggbb or one of ColorNames(); sRGB in [0, 1].
+// #rgb, #rrggbb or a colour's name in CSS, in letters of any case; sRGB in [0, 1].
 glm::vec3 ParseColor(std::string_view option, std::string_view text);
-
-// The colours that have names (CSS's), in alphabetical order.
-std::vector<std::string_view> ColorNames();
 
 // One of `choices`, by index; letter case counts.
 int ParseChoice(std::string_view option, std::string_view text, const std::vector<std::string_view>& choices);

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string_view>
 
+#include "base/json_depth.h"
 #include "base/printable.h"
 #include "facet/error.h"
 #include "facet/version.h"
@@ -17,6 +18,7 @@ constexpr std::string_view kProgram = "facet ";
 using Settings = std::map<std::string, std::string>;
 
 std::optional<Settings> ParseSettings(const std::string& text) {
+  if (IsJsonDeeperThan(text, 1)) return std::nullopt;
   const nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
   if (!json.is_object()) return std::nullopt;
   Settings settings;
@@ -29,7 +31,7 @@ std::optional<Settings> ParseSettings(const std::string& text) {
 
 }  // namespace
 
-std::vector<std::array<std::string, 2>> ToPngText(const Provenance& p) {
+std::vector<std::array<std::string, 2>> ToImageText(const Provenance& p) {
   return {{"Software", std::string(kProgram) + p.version},
           {"facet:scene", p.scene},
           {"facet:settings", nlohmann::json(p.settings).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)},
@@ -37,14 +39,13 @@ std::vector<std::array<std::string, 2>> ToPngText(const Provenance& p) {
           {"facet:pixels", ToHex(p.pixels)}};
 }
 
-Provenance ReadProvenance(const std::filesystem::path& png) {
-  const std::string name = Printable(png.string());
-  const std::map<std::string, std::string> text = ReadPngText(ReadFileWhole(png), name);
+Provenance ReadProvenance(std::span<const std::byte> picture, const std::string& name) {
+  const std::map<std::string, std::string> text = ReadImageText(picture, name);
   const auto value = [&](const char* key) -> const std::string& {
     const auto found = text.find(key);
     if (found != text.end()) return found->second;
     throw Error(ErrorCode::InvalidInput, std::string("says nothing of ") + key, name,
-                "only a PNG that facet wrote, and no other program has rewritten, can be verified");
+                "only a PNG or EXR that facet wrote, and no other program has rewritten, can be verified");
   };
   const auto bad = [&](const char* key) {
     return Error(ErrorCode::InvalidInput, std::string("has no valid ") + key, name, "the file was changed");

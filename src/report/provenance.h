@@ -2,9 +2,9 @@
 #pragma once
 
 #include <array>
-#include <filesystem>
+#include <cstddef>
 #include <map>
-#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -17,15 +17,15 @@ struct Provenance {
   std::string scene;                            // the file's name, without its folder
   std::map<std::string, std::string> settings;  // as SpelledOut() gives them
   Digest film;                                  // HashFilm()
-  Digest pixels;                                // HashImage() of the picture in the file
+  Digest pixels;                                // HashImage() of StoredForm() of the picture
 };
 
-// Keyword and value pairs for a PNG file's text chunks: "Software", "facet:scene", "facet:settings" (a JSON object),
+// Keyword and value pairs for the text in a PNG or EXR file: "Software", "facet:scene", "facet:settings" (a JSON object),
 // "facet:film" and "facet:pixels". Nothing in them depends on the machine or the time.
-std::vector<std::array<std::string, 2>> ToPngText(const Provenance& provenance);
+std::vector<std::array<std::string, 2>> ToImageText(const Provenance& provenance);
 
-// What a PNG file says of itself. Throws Error: NotFound; InvalidInput for a file that is no PNG, or was not written by
-// facet, or says something that no version of facet writes.
-Provenance ReadProvenance(const std::filesystem::path& png);
+// What a picture's file says of itself; messages call it `name`. Throws Error(InvalidInput) for one that is neither PNG
+// nor EXR, or was not written by facet, or says something that no version of facet writes.
+Provenance ReadProvenance(std::span<const std::byte> picture, const std::string& name);
 
 }  // namespace facet

@@ -2,18 +2,19 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <memory>
 #include <numbers>
 #include <utility>
 #include <vector>
 
+#include "base/float_environment.h"
+#include "base/input_file.h"
+#include "base/memory_budget.h"
 #include "base/printable.h"
 #include "facet/error.h"
-#include "image/probe.h"
+#include "image/codec.h"
 #include "light/environment_source.h"
 #include "light/studio.h"
-#include "render/memory_budget.h"
 
 namespace facet {
 namespace {
@@ -55,7 +56,7 @@ FeatureSet ParseFeatures(Text where, Text text) {
 }
 
 constexpr std::array kOptions = {
-    RequestOption{"size", kOutput, "WxH", "1024x1024", "Pixels, each side 1 to 16384 [1024x1024]",
+    RequestOption{"size", kOutput, "WxH|N", "1024x1024", "Pixels, each side 1 to 16384; N is NxN [1024x1024]",
                   [](RenderRequest& r, Text where, Text text) {
                     const Size size = ParseSize(where, text);
                     r.settings.width = size.width;
@@ -87,7 +88,7 @@ constexpr std::array kOptions = {
     RequestOption{"camera", kCamera, "NAME|INDEX", "", "A camera of the file [framed from the bounds]",
                   [](RenderRequest& r, Text, Text text) { r.camera = text; }},
     RequestOption{"orbit", kCamera, "THETA,PHI[,RADIUS]", "",
-                  "Degrees about +Y, degrees from +Y, and distance\n[the distance that frames the scene]",
+                  "Degrees about +Y, degrees from +Y, and distance\n[the distance that shows all from every side]",
                   [](RenderRequest& r, Text where, Text text) { r.orbit = ParseOrbit(where, text); }},
     RequestOption{"target", kCamera, "X,Y,Z", "", "What the orbit turns about [centre of the bounds]",
                   [](RenderRequest& r, Text where, Text text) { r.target = ParseVec3(where, text); }},
@@ -185,22 +186,6 @@ std::vector<std::string> Names(const std::vector<T>& things) {
   return names;
 }
 
-// Refuses a picture whose first bytes say that it is beyond the limit.
-void CheckEnvironment(const std::filesystem::path& path, std::uint64_t memory_limit) {
-  if (memory_limit > 0 && std::filesystem::is_regular_file(path)) {  // a pipe is read once
-    std::vector<char> start(std::size_t{1} << 20);
-    std::ifstream file(path, std::ios::binary);
-    file.read(start.data(), std::streamsize(start.size()));
-    start.resize(std::size_t(file.gcount()));
-    const ImageHeader header = ProbeImage(std::as_bytes(std::span(start))).value_or(ImageHeader());
-    const auto pixels = std::uint64_t(header.width) * std::uint64_t(header.height);
-    MemoryBudget(memory_limit)
-        .Add(pixels * std::uint64_t(header.channels * header.bits / 8 + 16),  // as in the file, and as linear light
-             "an environment of " + std::to_string(header.width) + " x " + std::to_string(header.height) + " pixels",
-             "scale it down");
-  }
-}
-
 CameraChoice PlacedCamera(const RenderRequest& request, const Scene& scene) {
   if (request.camera) {
     return SceneCamera{Choose("--camera", "camera", *request.camera, Names(scene.cameras))};
@@ -260,7 +245,7 @@ void RefuseContradictions(const RenderRequest& request) {
   }
 }
 
-RenderSettings ResolveRequest(const RenderRequest& request, const Scene& scene, const std::filesystem::path& base,
+RenderSettings ResolveRequest(const RenderRequest& request, const Scene& scene, const NamedBy& named_by,
                               const std::filesystem::path& cache) {
   RenderSettings settings = request.settings;
   if (request.scene) settings.scene = Choose("--scene", "scene", *request.scene, Names(scene.scenes));
@@ -271,22 +256,29 @@ RenderSettings ResolveRequest(const RenderRequest& request, const Scene& scene, 
   }
   if (request.variant) settings.variant = Choose("--variant", "variant", *request.variant, scene.variants);
   if (request.environment) {
-    const std::filesystem::path path = base / *request.environment;
-    CheckEnvironment(path, settings.memory_limit);
-    if (cache.empty()) {
-      settings.environment.image = std::make_shared<const Image>(LoadImage(path));
-    } else {
+    const bool by_user = named_by.file.empty();
+    const std::filesystem::path path =
+        by_user ? *request.environment : DataPath(named_by.file, *request.environment, named_by.root);
+    if (!cache.empty()) {
       settings.environment.source = OpenEnvironment(path, cache);
+    } else {
+      MemoryBudget budget(settings.memory_limit);
+      const MemoryBudget::Scope scope(budget);
+      const FloatEnvironment pinned;
+      const Bytes file = ReadFile(path, {.regular_only = !by_user});
+      settings.environment.image = std::make_shared<const Image>(DecodeImage(file.Span(), path.string()));
     }
   }
   return settings;
 }
 
 RenderInputs LoadInputs(const std::filesystem::path& scene, const RenderRequest& request, const LoadOptions& options,
-                        const std::filesystem::path& base) {
+                        const NamedBy& named_by) {
   RefuseContradictions(request);
   RenderInputs inputs{LoadGltf(scene, options), {}};
-  inputs.settings = ResolveRequest(request, inputs.loaded.scene, base);
+  RenderRequest limited = request;
+  limited.settings.memory_limit = options.memory_limit;
+  inputs.settings = ResolveRequest(limited, inputs.loaded.scene, named_by);
   return inputs;
 }
 

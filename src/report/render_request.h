@@ -64,10 +64,16 @@ std::map<std::string, std::string> SpelledOut(const RenderRequest& request);
 // Throws Error(InvalidUsage) for options that contradict each other.
 void RefuseContradictions(const RenderRequest& request);
 
-// The settings for a scene: names become indices, and the environment's picture is loaded (a relative path: from
-// `base`), or opened where there is a `cache` for what is prepared from it.
+// Where the name of the environment's image comes from. Empty: from a user. Else a file that names it, relative to its
+// folder, and within that folder or `root` (see DataPath() of base/input_file.h).
+struct NamedBy {
+  std::filesystem::path file, root;
+};
+
+// The settings for a scene: names become indices, and the environment's image is loaded, or opened where there is a
+// `cache` for what is prepared from it.
 // Throws Error: InvalidUsage for names that the scene does not have; what LoadImage throws.
-RenderSettings ResolveRequest(const RenderRequest& request, const Scene& scene, const std::filesystem::path& base = {},
+RenderSettings ResolveRequest(const RenderRequest& request, const Scene& scene, const NamedBy& named_by = {},
                               const std::filesystem::path& cache = {});
 
 // A scene and its settings, ready for Render().
@@ -76,9 +82,9 @@ struct RenderInputs {
   RenderSettings settings;
 };
 
-// All of the above at once. Throws what LoadGltf and they throw.
+// All of the above at once; options.memory_limit is the rendering's too. Throws what LoadGltf and they throw.
 RenderInputs LoadInputs(const std::filesystem::path& scene, const RenderRequest& request,
-                        const LoadOptions& options = {}, const std::filesystem::path& base = {});
+                        const LoadOptions& options = {}, const NamedBy& named_by = {});
 
 // The environment's picture as it is decoded, or drawn (the studio); none where there is no environment.
 std::optional<Digest> HashEnvironment(const EnvironmentSettings& environment);

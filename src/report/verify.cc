@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <cstring>
 
+#include "base/input_file.h"
+#include "base/memory_budget.h"
 #include "base/parallel.h"
 #include "base/printable.h"
 #include "facet/compare.h"
 #include "facet/error.h"
 #include "facet/load.h"
+#include "image/codec.h"
 #include "report/provenance.h"
 #include "report/render_request.h"
 
@@ -45,24 +48,30 @@ void FindRectangle(const Image& a, const Image& b, Verification& v) {
   }
 }
 
-Verification Verify(const std::filesystem::path& png, const std::filesystem::path& scene,
+Verification Verify(const std::filesystem::path& picture, const std::filesystem::path& scene,
                     const VerifySettings& settings) {
-  const std::string name = Printable(png.string());
-  const Provenance provenance = ReadProvenance(png);
+  MemoryBudget budget(settings.load.memory_limit);
+  const MemoryBudget::Scope scope(budget);
+  const std::string name = Printable(picture.string());
+  const Bytes file = ReadFile(picture);
+  const Provenance provenance = ReadProvenance(file.Span(), name);
   RenderRequest request = ReadRequest(provenance, name);
-  std::filesystem::path base = scene.parent_path();
+  NamedBy named_by{scene, settings.load.root};
   if (settings.environment) {
     if (!request.environment) {
       throw Error(ErrorCode::InvalidUsage, "no environment's picture lit it", name, "leave the environment out");
     }
     request.environment = settings.environment;
-    base.clear();
+    named_by = {};
   }
-  const Image before = LoadImage(png);
-  const RenderInputs inputs = LoadInputs(scene, request, settings.load, base);
+  const Image before = DecodeStored(file.Span(), name);
+  if (before.type == ChannelType::F32) request.type = ChannelType::F32;
+  const RenderInputs inputs = LoadInputs(scene, request, settings.load, named_by);
   RenderStats stats;
   const Film film = Render(inputs.loaded.scene, inputs.settings, &stats);
-  const Image now = Develop(film, request.display, request.type);
+  const bool is_exr = before.type == ChannelType::F32;
+  const Image developed = Develop(film, request.display, request.type);
+  const Image now = is_exr ? StoredForm("picture.exr", developed) : developed;
   if (before.width != now.width || before.height != now.height || before.channels != now.channels ||
       before.type != now.type) {
     throw Error(ErrorCode::InvalidInput, "its pixels are not of the size and kind that its settings say", name,
@@ -80,7 +89,7 @@ Verification Verify(const std::filesystem::path& png, const std::filesystem::pat
   v.film_equal = v.film_before == v.film_now;
   v.pixels = before.PixelCount();
   if (before.bytes == now.bytes) return v;
-  const ImageDifference difference = CompareImages(before, now);
+  const ImageDifference difference = CompareImages(before, now, {.memory_limit = settings.load.memory_limit});
   v.differing_pixels = difference.differing_pixels;
   v.max_difference = difference.max_difference;
   v.max_x = difference.max_x;
@@ -91,10 +100,10 @@ Verification Verify(const std::filesystem::path& png, const std::filesystem::pat
 
 }  // namespace
 
-Verification VerifyPicture(const std::filesystem::path& png, const std::filesystem::path& scene,
+Verification VerifyPicture(const std::filesystem::path& picture, const std::filesystem::path& scene,
                            const VerifySettings& settings) {
   Verification verification;
-  RunWithThreads(settings.threads, [&] { verification = Verify(png, scene, settings); });
+  RunWithThreads(settings.threads, [&] { verification = Verify(picture, scene, settings); });
   return verification;
 }
 

@@ -17,12 +17,6 @@ void AddPoint(const glm::dvec3& point, Bounds& bounds) {
   bounds.empty = false;
 }
 
-void AddBounds(const Bounds& other, Bounds& bounds) {
-  if (other.empty) return;
-  AddPoint(other.low, bounds);
-  AddPoint(other.high, bounds);
-}
-
 // The box of place(position) over all positions. Pieces are joined in their order: even a zero's sign is the same for
 // any number of threads.
 template <class Place>
@@ -49,6 +43,12 @@ bool KeepsBoxes(const glm::dmat4& m) {
 
 }  // namespace
 
+void AddBounds(const Bounds& other, Bounds& bounds) {
+  if (other.empty) return;
+  AddPoint(other.low, bounds);
+  AddPoint(other.high, bounds);
+}
+
 Bounds BoundsOf(const std::vector<glm::vec3>& positions) {
   return BoundsOfPlaced(positions, [](const glm::vec3& p) { return glm::dvec3(p); });
 }
@@ -74,6 +74,33 @@ void AddPlaced(const std::vector<glm::vec3>& positions, const Bounds& local, con
                              }),
               bounds);
   }
+}
+
+void AddReach(const std::vector<glm::vec3>& positions, const Bounds& local, const glm::dmat4& world_from_mesh,
+              const glm::dvec3& point, double& reach) {
+  const auto distance2 = [&](const glm::dvec3& position) {
+    const glm::dvec3 offset = glm::dvec3(world_from_mesh * glm::dvec4(position, 1.0)) - point;
+    return glm::dot(offset, offset);
+  };
+  if (local.empty) return;
+  double corners2 = 0.0;
+  for (int i = 0; i < 8; ++i) {
+    corners2 = std::max(corners2, distance2({i & 1 ? local.high.x : local.low.x, i & 2 ? local.high.y : local.low.y,
+                                             i & 4 ? local.high.z : local.low.z}));
+  }
+  // Sums are rounded: the farthest corner of a box is as far as what it holds, but for a little.
+  constexpr double kRounding = 1e-9;
+  if (corners2 * (1.0 + kRounding) <= reach * reach) return;
+  std::vector<double> pieces((positions.size() + kVerticesPerPiece - 1) / kVerticesPerPiece, 0.0);
+  ParallelFor(positions.size(), kVerticesPerPiece, [&](std::size_t begin, std::size_t end) {
+    double largest2 = 0.0;
+    for (std::size_t i = begin; i < end; ++i) {
+      const double d2 = distance2(glm::dvec3(positions[i]));
+      if (std::isfinite(d2)) largest2 = std::max(largest2, d2);
+    }
+    pieces[begin / kVerticesPerPiece] = largest2;
+  });
+  for (const double largest2 : pieces) reach = std::max(reach, std::sqrt(largest2));
 }
 
 }  // namespace facet

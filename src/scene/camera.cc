@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kDegree = kPi / 180.0;
+constexpr double kFieldOfView = 45.0 * kDegree;
 constexpr double kMargin = 1.05;        // how much larger than the bounds the framed picture is
 constexpr double kNearFraction = 1e-5;  // of the distance or of the bounds, whichever is larger
 
@@ -54,18 +55,12 @@ struct Framing {
   double distance, right, up;
 };
 
-// `centred`: the eye may move aside, so that the margins on opposite sides of the picture are equal.
-Framing FrameAll(const PosedScene& posed, const glm::dvec3& target, const CameraAxes& axes, double tan_x, double tan_y,
-                 bool centred) {
-  const ViewExtent seen = MeasureView(posed, target, axes, tan_x / kMargin, tan_y / kMargin);
+// The eye may move aside, so that the margins on opposite sides of the picture are equal.
+Framing FrameAll(const PosedScene& posed, const glm::dvec3& target, const CameraAxes& axes, double tan_x, double tan_y) {
   const double tx = tan_x / kMargin, ty = tan_y / kMargin;
-  Framing framing{};
-  if (centred) {
-    framing = {std::max((seen.right + seen.left) / (2.0 * tx), (seen.top + seen.bottom) / (2.0 * ty)),
-               (seen.right - seen.left) / 2.0, (seen.top - seen.bottom) / 2.0};
-  } else {
-    framing.distance = std::max(std::max(seen.right, seen.left) / tx, std::max(seen.top, seen.bottom) / ty);
-  }
+  const ViewExtent seen = MeasureView(posed, target, axes, tx, ty);
+  Framing framing = {std::max((seen.right + seen.left) / (2.0 * tx), (seen.top + seen.bottom) / (2.0 * ty)),
+                     (seen.right - seen.left) / 2.0, (seen.top - seen.bottom) / 2.0};
   // A line seen end on would have the eye at its end, a single point at itself.
   const double size = posed.bounds.empty ? 1.0 : glm::length(posed.bounds.high - posed.bounds.low);
   framing.distance = std::max(framing.distance, seen.nearest + 1e-3 * size);
@@ -73,27 +68,62 @@ Framing FrameAll(const PosedScene& posed, const glm::dvec3& target, const Camera
   return framing;
 }
 
-ResolvedCamera ResolveOrbit(const OrbitCamera& orbit, const PosedScene& posed, double aspect, bool centred) {
-  Bounds box = posed.bounds;
-  if (box.empty) box = {glm::dvec3(-0.5), glm::dvec3(0.5), false};
-  const double yfov = orbit.yfov.value_or(45.0 * kDegree);
-  const glm::dvec3 target = orbit.target.value_or(0.5 * box.low + 0.5 * box.high);
-  CheckFieldOfView(yfov);
-  CheckFinite(target, "the target");
-  CheckFinite({orbit.theta, orbit.phi, orbit.radius.value_or(0.0)}, "theta, phi or the radius");
-
-  const CameraAxes axes = OrbitAxes(orbit.theta, orbit.phi);
-  const double tan_y = Tan(0.5 * yfov);
-  const bool is_framed = !orbit.radius || *orbit.radius <= 0.0;
-  const Framing framing =
-      is_framed ? FrameAll(posed, target, axes, tan_y * aspect, tan_y, centred) : Framing{*orbit.radius, 0.0, 0.0};
+ResolvedCamera PlaceOrbit(const OrbitCamera& orbit, const PosedScene& posed, const CameraAxes& axes,
+                          const glm::dvec3& target, const Framing& framing, double aspect) {
   ResolvedCamera camera;
   camera.world_from_camera =
       PlaceAt(target + framing.distance * axes.back + framing.right * axes.right + framing.up * axes.up, axes);
-  camera.lens.yfov = yfov;
+  camera.lens.yfov = orbit.yfov.value_or(kFieldOfView);
   camera.lens.aspect = aspect;
-  camera.lens.znear = kNearFraction * std::max(framing.distance, glm::length(box.high - box.low));
+  const double size = posed.bounds.empty ? std::sqrt(3.0) : glm::length(posed.bounds.high - posed.bounds.low);
+  camera.lens.znear = kNearFraction * std::max(framing.distance, size);
+  camera.target_distance = framing.distance;
   return camera;
+}
+
+glm::dvec3 CentreOf(const Bounds& bounds) {
+  return bounds.empty ? glm::dvec3(0.0) : 0.5 * bounds.low + 0.5 * bounds.high;
+}
+
+ResolvedCamera ResolveAuto(const AutoCamera& automatic, const PosedScene& posed, double aspect) {
+  const OrbitCamera orbit{30.0 * kDegree, 75.0 * kDegree, {}, {}, automatic.yfov};
+  const double yfov = orbit.yfov.value_or(kFieldOfView);
+  CheckFieldOfView(yfov);
+  const CameraAxes axes = OrbitAxes(orbit.theta, orbit.phi);
+  const glm::dvec3 target = CentreOf(posed.bounds);
+  const double tan_y = Tan(0.5 * yfov);
+  return PlaceOrbit(orbit, posed, axes, target, FrameAll(posed, target, axes, tan_y * aspect, tan_y), aspect);
+}
+
+const OrbitBall& Ball(const Scene& scene, const PosedScene& posed, const std::optional<glm::dvec3>& centre,
+                      KnownBall& known) {
+  PoseSettings pose = posed.settings;
+  pose.time = 0.0;  // it is the same at all times
+  if (!known.ball || known.pose != pose || known.centre != centre) {
+    known = {pose, centre, MeasureBall(scene, posed, centre)};
+  }
+  return *known.ball;
+}
+
+ResolvedCamera ResolveOrbit(const OrbitCamera& orbit, const Scene& scene, const PosedScene& posed, double aspect,
+                            KnownBall* known) {
+  const double yfov = orbit.yfov.value_or(kFieldOfView);
+  CheckFieldOfView(yfov);
+  CheckFinite(orbit.target.value_or(glm::dvec3(0.0)), "the target");
+  CheckFinite({orbit.theta, orbit.phi, orbit.radius.value_or(0.0)}, "theta, phi or the radius");
+  Framing framing{orbit.radius.value_or(0.0), 0.0, 0.0};
+  glm::dvec3 target = orbit.target.value_or(CentreOf(posed.bounds));
+  if (!(framing.distance > 0.0)) {
+    KnownBall unknown;
+    const OrbitBall& ball = Ball(scene, posed, orbit.target, known != nullptr ? *known : unknown);
+    target = ball.centre;
+    const double radius = posed.drawables.empty() && ball.radius == 0.0 ? 0.5 * std::sqrt(3.0) : ball.radius;
+    // The sine of the angle whose tangent is that of the narrower side.
+    const double narrow = Tan(0.5 * yfov) * std::min(aspect, 1.0);
+    framing.distance = kMargin * radius * std::sqrt(1.0 + narrow * narrow) / narrow;
+    if (!(framing.distance > 0.0)) framing.distance = 1.0;
+  }
+  return PlaceOrbit(orbit, posed, OrbitAxes(orbit.theta, orbit.phi), target, framing, aspect);
 }
 
 glm::dvec3 NormalizedOr(const glm::dvec3& v, const glm::dvec3& otherwise) {
@@ -178,16 +208,11 @@ ResolvedCamera ResolveFree(const FreeCamera& free, double aspect) {
 }  // namespace
 
 ResolvedCamera ResolveCamera(const CameraChoice& choice, const Scene& scene, const PosedScene& posed, int width,
-                             int height) {
+                             int height, KnownBall* known) {
   if (width < 1 || height < 1) Fail("the picture has no pixels");
   const double aspect = double(width) / double(height);
-  if (const auto* automatic = std::get_if<AutoCamera>(&choice)) {
-    const OrbitCamera orbit{30.0 * kDegree, 75.0 * kDegree, {}, {}, automatic->yfov};
-    return ResolveOrbit(orbit, posed, aspect, /*centred=*/true);
-  }
-  if (const auto* orbit = std::get_if<OrbitCamera>(&choice)) {
-    return ResolveOrbit(*orbit, posed, aspect, /*centred=*/false);
-  }
+  if (const auto* automatic = std::get_if<AutoCamera>(&choice)) return ResolveAuto(*automatic, posed, aspect);
+  if (const auto* orbit = std::get_if<OrbitCamera>(&choice)) return ResolveOrbit(*orbit, scene, posed, aspect, known);
   if (const auto* of_scene = std::get_if<SceneCamera>(&choice)) {
     return ResolveSceneCamera(of_scene->camera, scene, posed, aspect);
   }

@@ -6,6 +6,7 @@
 #include <mutex>
 
 #include "base/parallel.h"
+#include "scene/bounds.h"
 
 namespace facet {
 namespace {
@@ -47,6 +48,24 @@ struct Rows {
   }
 };
 
+// Moments spread over the animation that a pose is taken from; none where there is no animation, or it does not move.
+std::vector<PoseSettings> PosesOfAnimation(const Scene& scene, const PoseSettings& pose) {
+  constexpr int kMoments = 17;
+  std::vector<PoseSettings> poses;
+  if (pose.animation < 0) return poses;
+  double first = std::numeric_limits<double>::infinity(), last = kNothing;
+  for (const AnimationChannel& channel : scene.animations[std::size_t(pose.animation)].channels) {
+    if (channel.times.empty()) continue;
+    first = std::min(first, double(channel.times.front()));
+    last = std::max(last, double(channel.times.back()));
+  }
+  for (int i = 0; i < kMoments && first <= last; ++i) {
+    poses.push_back(pose);
+    poses.back().time = first + (last - first) * i / (kMoments - 1);
+  }
+  return poses;
+}
+
 }  // namespace
 
 ViewExtent MeasureView(const PosedScene& posed, const glm::dvec3& target, const CameraAxes& axes, double tan_x,
@@ -73,6 +92,30 @@ ViewExtent MeasureView(const PosedScene& posed, const glm::dvec3& target, const 
     }
   }
   return {largest[0], largest[1], largest[2], largest[3], largest[4]};
+}
+
+OrbitBall MeasureBall(const Scene& scene, const PosedScene& posed, const std::optional<glm::dvec3>& centre) {
+  const std::vector<PoseSettings> poses = PosesOfAnimation(scene, posed.settings);
+  const auto centre_of = [](const Bounds& bounds) {
+    return bounds.empty ? glm::dvec3(0.0) : 0.5 * bounds.low + 0.5 * bounds.high;
+  };
+  OrbitBall ball;
+  if (poses.empty()) {
+    ball.centre = centre.value_or(centre_of(posed.bounds));
+    for (const Drawable& drawable : posed.drawables) {
+      AddReach(drawable.geometry->positions, drawable.bounds_mesh, drawable.world_from_mesh, ball.centre, ball.radius);
+    }
+    return ball;
+  }
+  if (centre) {
+    ball.centre = *centre;
+  } else {
+    Bounds all;
+    for (const PoseSettings& pose : poses) AddBounds(PosedBounds(scene, pose), all);
+    ball.centre = centre_of(all);
+  }
+  for (const PoseSettings& pose : poses) ball.radius = std::max(ball.radius, PosedReach(scene, pose, ball.centre));
+  return ball;
 }
 
 }  // namespace facet

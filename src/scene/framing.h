@@ -1,6 +1,8 @@
 // Where a camera has to stand to see the whole scene.
 #pragma once
 
+#include <optional>
+
 #include "scene/pose.h"
 
 namespace facet {
@@ -22,5 +24,16 @@ struct ViewExtent {
 // Runs in parallel; the result does not depend on it.
 ViewExtent MeasureView(const PosedScene& posed, const glm::dvec3& target, const CameraAxes& axes, double tan_x,
                        double tan_y);
+
+// What an orbit without a radius turns about and keeps in view: a ball around all vertices, in every pose of the
+// animation that was chosen (some moments of it, from the first key to the last), so that neither the angle nor the time
+// moves the eye nearer or farther.
+struct OrbitBall {
+  glm::dvec3 centre{0.0};
+  double radius = 0.0;  // 0 where there are no vertices
+};
+
+// The ball of a scene that is posed. `centre`: none: the centre of the bounds of all those poses.
+OrbitBall MeasureBall(const Scene& scene, const PosedScene& posed, const std::optional<glm::dvec3>& centre);
 
 }  // namespace facet

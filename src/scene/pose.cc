@@ -213,12 +213,28 @@ void PlaceLightsAndCameras(const Scene& scene, const Plan& plan, PosedScene& pos
   }
 }
 
+// Calls visit(positions, their box, world_from_mesh) for everything that is drawn, in mesh space.
+template <class Visit>
+void ForEachPlaced(const Scene& scene, const PoseSettings& settings, const Visit& visit) {
+  const FloatEnvironment environment;
+  const Plan plan = MakePlan(scene, settings);
+  const std::vector<std::vector<std::size_t>> drawables_of_shape = DrawablesOfShapes(plan);
+  std::vector<glm::vec3> positions;  // of one shape at a time
+  for (std::size_t i = 0; i < plan.shapes.size(); ++i) {
+    const Bounds local = BoundsOfShape(plan.shapes[i], positions);
+    for (const std::size_t drawable : drawables_of_shape[i]) {
+      visit(positions, local, plan.drawables[drawable].world_from_mesh);
+    }
+  }
+}
+
 }  // namespace
 
 PosedScene PoseIncomplete(const Scene& scene, const PoseSettings& settings) {
   const FloatEnvironment environment;
   Plan plan = MakePlan(scene, settings);
   PosedScene posed;
+  posed.settings = settings;
   std::vector<const Primitive*> geometries(plan.shapes.size());
   std::vector<std::pair<std::size_t, Primitive*>> copies;
   for (std::size_t i = 0; i < plan.shapes.size(); ++i) {
@@ -281,18 +297,19 @@ PosedScene Pose(const Scene& scene, const PoseSettings& settings) {
 }
 
 Bounds PosedBounds(const Scene& scene, const PoseSettings& settings) {
-  const FloatEnvironment environment;
-  const Plan plan = MakePlan(scene, settings);
-  const std::vector<std::vector<std::size_t>> drawables_of_shape = DrawablesOfShapes(plan);
   Bounds bounds;
-  std::vector<glm::vec3> positions;  // of one shape at a time
-  for (std::size_t i = 0; i < plan.shapes.size(); ++i) {
-    const Bounds local = BoundsOfShape(plan.shapes[i], positions);
-    for (const std::size_t drawable : drawables_of_shape[i]) {
-      AddPlaced(positions, local, plan.drawables[drawable].world_from_mesh, bounds);
-    }
-  }
+  ForEachPlaced(scene, settings, [&](const auto& positions, const Bounds& local, const glm::dmat4& world_from_mesh) {
+    AddPlaced(positions, local, world_from_mesh, bounds);
+  });
   return bounds;
+}
+
+double PosedReach(const Scene& scene, const PoseSettings& settings, const glm::dvec3& point) {
+  double reach = 0.0;
+  ForEachPlaced(scene, settings, [&](const auto& positions, const Bounds& local, const glm::dmat4& world_from_mesh) {
+    AddReach(positions, local, world_from_mesh, point, reach);
+  });
+  return reach;
 }
 
 }  // namespace facet

@@ -58,6 +58,7 @@ struct PosedCamera {
 // triangles: normals and tangents present (made by MikkTSpace where the file has none; a primitive without normals
 // gets flat ones first). Triangles without normals and without normal texture keep `normals` empty: flat shading.
 struct PosedScene {
+  PoseSettings settings;        // that it was made with
   std::vector<Drawable> drawables;  // in the order of a depth-first walk of the scene's roots
   std::vector<PosedLight> lights;
   std::vector<PosedCamera> cameras;
@@ -81,7 +82,10 @@ PosedScene PoseIncomplete(const Scene& scene, const PoseSettings& settings);
 // Thread-safe.
 Primitive Completed(const Primitive& geometry, int tex_coord);
 
-// The bounds only, without keeping deformed geometry (for `facet info`).
+// The bounds only, without keeping deformed geometry.
 Bounds PosedBounds(const Scene& scene, const PoseSettings& settings);
+
+// How far the farthest vertex of a pose is from a point; 0 where there is none. Deformed geometry is not kept.
+double PosedReach(const Scene& scene, const PoseSettings& settings, const glm::dvec3& point);
 
 }  // namespace facet

@@ -111,7 +111,7 @@ TEST_F(FacetCheck, WhatCannotRunAtAllIsOneLineAndExitCodeTwo) {
   WriteText(manifest_, "{\n\"version\": 1,,\n}");
   expect_refused({}, manifest_ + ":2:14: ");
   std::filesystem::remove(manifest_);
-  expect_refused({}, "No such file");
+  expect_refused({}, "no such file");
 }
 
 }  // namespace

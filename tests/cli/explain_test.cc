@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "base/input_file.h"
 #include "cli/program.h"
 #include "cli/tiny_scene.h"
 #include "image/codec.h"
@@ -124,7 +125,7 @@ TEST(FacetWithout, IsPartOfAPicturesSettings) {
   ASSERT_EQ(RunFacet({"render", scene, "-o", whole, "--size", "32x32"}).exit_code, 0);
   ASSERT_EQ(RunFacet({"render", scene, "-o", picture, "--size", "32x32", "--without", list}).exit_code, 0);
   const auto settings_of = [](const std::string& png) {
-    return nlohmann::json::parse(ReadPngText(ReadFileWhole(png), "picture").at("facet:settings"));
+    return nlohmann::json::parse(ReadImageText(ReadFile(png).Span(), "picture").at("facet:settings"));
   };
   EXPECT_EQ(settings_of(whole)["without"], "none");
   EXPECT_EQ(settings_of(picture)["without"], list);
@@ -139,7 +140,7 @@ TEST(FacetWithout, IsPartOfAPicturesSettings) {
   };
   WriteText(manifest, R"({"version": 1, "settings": {"size": "32x32", "without": ")" + list + R"("}, "entries": [)" +
                           entry("less", "", picture) + "," + entry("whole", R"("without": "none")", whole) + "]}");
-  const Outcome check = RunFacet({"check", manifest});
+  const Outcome check = RunFacet({"check", manifest, "--root", "/"});
   EXPECT_EQ(check.exit_code, 0) << check.out << check.err;
 }
 

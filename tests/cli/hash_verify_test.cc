@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 
+#include "base/input_file.h"
 #include "cli/program.h"
 #include "cli/tiny_scene.h"
 #include "facet/film.h"
@@ -33,7 +34,7 @@ class FacetHash : public testing::Test {
 
   // Writes picture_ anew with the same text, its pixels changed.
   void Retouch(const std::function<void(Image&)>& change) const {
-    const auto text = ReadPngText(ReadFileWhole(picture_), "picture");
+    const auto text = ReadImageText(ReadFile(picture_).Span(), "picture");
     Image image = LoadImage(picture_);
     change(image);
     std::vector<std::array<std::string, 2>> pairs;
@@ -103,7 +104,7 @@ TEST_F(FacetHash, VerifyFindsTheEnvironmentBesideTheScene) {
   std::filesystem::create_directory(elsewhere);
   WriteImage(elsewhere + "/sky.png", sky);
   Draw({"--scene", "Lit", "--environment", elsewhere + "/sky.png"});
-  EXPECT_EQ(ReadPngText(ReadFileWhole(picture_), "picture").at("facet:settings").find(elsewhere), std::string::npos)
+  EXPECT_EQ(ReadImageText(ReadFile(picture_).Span(), "picture").at("facet:settings").find(elsewhere), std::string::npos)
       << "folders of this machine stay out of pictures";
   const Outcome lost = RunFacet({"verify", picture_, in_});
   EXPECT_EQ(lost.exit_code, 2);

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "base/input_file.h"
 #include "cli/program.h"
 #include "image/codec.h"
 
@@ -25,7 +26,7 @@ class FacetReport : public testing::Test {
     return RunFacet(more);
   }
   nlohmann::json Taken() const {
-    return nlohmann::json::parse(ReadPngText(ReadFileWhole(picture_), "picture").at("facet:settings"));
+    return nlohmann::json::parse(ReadImageText(ReadFile(picture_).Span(), "picture").at("facet:settings"));
   }
 
   const Folder folder_;

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "base/input_file.h"
 #include "facet/error.h"
 #include "facet/image.h"
 #include "image/codec.h"
@@ -27,6 +28,11 @@ inline std::filesystem::path Corpus() {
 
 #define FACET_NEEDS_CORPUS() \
   if (!std::filesystem::exists(Corpus())) GTEST_SKIP() << "no corpus at " << Corpus()
+
+inline std::vector<std::byte> ReadBytes(const std::filesystem::path& path) {
+  const Bytes bytes = ReadFile(path);
+  return {bytes.data, bytes.data + bytes.size};
+}
 
 // A folder of the test's own, gone at its end.
 class TemporaryFolder {

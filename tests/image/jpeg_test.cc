@@ -5,6 +5,7 @@
 // jpeglib.h needs size_t and FILE to be known.
 #include <jpeglib.h>
 
+#include "base/memory_budget.h"
 #include "facet/load.h"
 #include "image/codec.h"
 #include "image/image_test_util.h"
@@ -145,15 +146,61 @@ TEST(Jpeg, InksBecomeRgb) {
   }
 }
 
-TEST(Jpeg, EveryTruncationIsAnError) {
+// Only the end marker may be missing: then all pixels are there, and it is told.
+TEST(Jpeg, EveryTruncationIsAnErrorOrHarmless) {
   for (const bool progressive : {false, true}) {
     Settings settings;
     settings.progressive = progressive;
     const auto bytes = MakeJpeg(settings);
+    const Image whole = DecodeImage(bytes, "whole");
+    EXPECT_EQ(whole.damage, "");
     for (std::size_t length = 0; length < bytes.size(); ++length) {
-      EXPECT_EQ(CodeOf([&] { DecodeImage(std::span(bytes).first(length), "cut"); }), ErrorCode::InvalidInput) << length;
+      try {
+        const Image cut = DecodeImage(std::span(bytes).first(length), "cut");
+        EXPECT_TRUE(cut.bytes == whole.bytes) << length;
+        EXPECT_EQ(cut.damage, "the JPEG has no end marker") << length;
+      } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::InvalidInput) << length;
+        EXPECT_LT(length, bytes.size() - 2) << error.what();
+      }
     }
   }
+}
+
+// A scan of nothing costs a file some ten bytes, and a decoder a pass over the whole picture.
+TEST(Jpeg, TooManyScansAreRefused) {
+  Settings settings;
+  settings.progressive = true;
+  auto bytes = MakeJpeg(settings);
+  // The second scan, the first of higher frequencies: another one sets the same coefficients to the same values.
+  const std::string_view file(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  const std::size_t begin = file.find("\xFF\xDA", file.find("\xFF\xDA") + 2), end = file.find("\xFF\xC4", begin);
+  ASSERT_NE(end, std::string_view::npos);
+  const std::vector<std::byte> scan(bytes.begin() + std::ptrdiff_t(begin), bytes.begin() + std::ptrdiff_t(end));
+  std::vector<std::byte> scans;
+  for (int i = 0; i < 400; ++i) scans.insert(scans.end(), scan.begin(), scan.end());
+  bytes.insert(bytes.begin() + std::ptrdiff_t(end), scans.begin(), scans.end());
+  EXPECT_TRUE(DecodeImage(bytes, "scans").bytes == DecodeImage(MakeJpeg(settings), "whole").bytes);
+  bytes.insert(bytes.begin() + std::ptrdiff_t(end), scans.begin(), scans.end());
+  std::string what;
+  EXPECT_EQ(CodeOf([&] { DecodeImage(bytes, "scans"); }, &what), ErrorCode::InvalidInput);
+  EXPECT_EQ(what, "scans: broken JPEG: more than 500 scans");
+}
+
+// All coefficients of a progressive picture are in memory at once.
+TEST(Jpeg, TheMemoryLimitHoldsForCoefficients) {
+  Settings settings;
+  settings.progressive = true;
+  settings.width = settings.height = 1024;
+  const auto bytes = MakeJpeg(settings);
+  MemoryBudget budget(std::uint64_t{2} << 20);
+  const MemoryBudget::Scope scope(budget);
+  std::string what;
+  EXPECT_EQ(CodeOf([&] { DecodeImageRows(bytes, "large.jpg", [](const Image&, int) {}); }, &what),
+            ErrorCode::OutOfMemory);
+  EXPECT_NE(what.find("for the coefficients of JPEG images"), std::string::npos) << what;
+  settings.progressive = false;
+  DecodeImageRows(MakeJpeg(settings), "large.jpg", [](const Image&, int) {});
 }
 
 TEST(Jpeg, FlippedBytesNeverCrash) {

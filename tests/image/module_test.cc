@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/output_file.h"
 #include "facet/film.h"
 #include "facet/load.h"
 #include "image/codec.h"
@@ -36,10 +37,10 @@ TEST(Module, FilesAreAFunctionOfThePictureAlone) {
   const Image image = MakePattern(16, 16, 3, ChannelType::F32);
   for (const char* name : {"a.exr", "a.tif"}) {
     WriteImage(folder / name, image);
-    const std::vector<std::byte> first = ReadFileWhole(folder / name);
+    const std::vector<std::byte> first = ReadBytes(folder / name);
     std::this_thread::sleep_for(std::chrono::milliseconds(1100));  // clocks in files count seconds
     WriteImage(folder / name, image);
-    EXPECT_EQ(ReadFileWhole(folder / name), first) << name;
+    EXPECT_EQ(ReadBytes(folder / name), first) << name;
   }
 }
 
@@ -48,7 +49,7 @@ TEST(Module, AgreesWithOursOnEveryPngOfTheCorpus) {
   FACET_NEEDS_MODULE();
   int compared = 0;
   for (const auto& path : Files(Corpus() / "models", ".png")) {
-    const auto bytes = ReadFileWhole(path);
+    const auto bytes = ReadBytes(path);
     Image ours;
     try {
       ours = DecodeImage(bytes, path.string());
@@ -56,7 +57,7 @@ TEST(Module, AgreesWithOursOnEveryPngOfTheCorpus) {
       ADD_FAILURE() << error.what();
       continue;
     }
-    const Image theirs = DecodeWithOiio(bytes, "picture");
+    const Image theirs = DecodeWithOiio(bytes, "png", "picture");
     SCOPED_TRACE(path.string());
     EXPECT_EQ(ours.width, theirs.width);
     // OpenImageIO leaves small depths and tRNS to itself in ways of its own: compare what has the same form.
@@ -74,35 +75,11 @@ TEST(Module, AgreesWithOursOnJpegsOfTheCorpus) {
   for (const auto& path : Files(Corpus(), ".jpg")) {
     if (compared >= 60) break;
     SCOPED_TRACE(path.string());
-    const auto bytes = ReadFileWhole(path);
-    ExpectSame(DecodeImage(bytes, path.string()), DecodeWithOiio(bytes, "picture"));
+    const auto bytes = ReadBytes(path);
+    ExpectSame(DecodeImage(bytes, path.string()), DecodeWithOiio(bytes, "jpg", "picture"));
     ++compared;
   }
   EXPECT_GT(compared, 0);
-}
-
-TEST(Module, WebPWithStraightAlpha) {
-  FACET_NEEDS_CORPUS();
-  FACET_NEEDS_MODULE();
-  const auto folder = Corpus() / "models" / "WebPQuads-derived";
-  const Image red = LoadImage(folder / "VP8L_red.webp");
-  EXPECT_EQ(red.type, ChannelType::U8);
-  EXPECT_EQ(red.encoding, Encoding::Srgb);
-  EXPECT_EQ(red.As<std::uint8_t>()[0], 255);
-  EXPECT_EQ(red.As<std::uint8_t>()[1], 0);
-  EXPECT_EQ(red.As<std::uint8_t>()[2], 0);
-  for (const char* name : {"VP8L_red_transparent.webp", "VP8X_red_transparent.webp"}) {
-    const Image image = LoadImage(folder / name);
-    ASSERT_EQ(image.channels, 4) << name;
-    EXPECT_EQ(image.As<std::uint8_t>()[3], 128) << name;
-    EXPECT_EQ(image.As<std::uint8_t>()[0], 255) << name << ": the colour must not be multiplied by alpha";
-  }
-  const auto bytes = ReadFileWhole(folder / "lossy_1.webp");
-  const Image large = DecodeImage(bytes, "picture");
-  EXPECT_GT(large.PixelCount(), 1000u);
-  for (std::size_t length = 0; length < bytes.size(); length += 97) {
-    EXPECT_THROW(DecodeImage(std::span(bytes).first(length), "cut"), Error) << length;
-  }
 }
 
 TEST(Module, OpenExrKeepsLinearFloatsAndHidesAssociatedAlpha) {
@@ -168,26 +145,10 @@ TEST(Module, OtherFormatsRoundTrip) {
     const Image back = LoadImage(folder / name);
     EXPECT_TRUE(WithChannels(back, 3).bytes == opaque.bytes);
   }
-  // WebP is lossy here: smooth content comes back nearly the same.
-  Image smooth = MakePattern(64, 64, 3, ChannelType::U8);
-  for (int i = 0; i < 64 * 64; ++i) {
-    std::uint8_t* pixel = smooth.As<std::uint8_t>() + 3 * i;
-    pixel[0] = 200;
-    pixel[1] = static_cast<std::uint8_t>(i % 64 + 60);
-    pixel[2] = static_cast<std::uint8_t>(i / 64 + 90);
-  }
-  WriteImage(folder / "a.webp", smooth);
-  const Image back = LoadImage(folder / "a.webp");
-  ASSERT_EQ(back.bytes.size(), smooth.bytes.size());
-  int worst = 0;
-  for (std::size_t i = 0; i < back.bytes.size(); ++i) {
-    worst = std::max(worst, std::abs(int(back.As<std::uint8_t>()[i]) - int(smooth.As<std::uint8_t>()[i])));
-  }
-  EXPECT_LE(worst, 12);
   const Image clear = MakePattern(31, 17, 4, ChannelType::U8);
   WriteImage(folder / "clear.tga", clear);
   ExpectSame(LoadImage(folder / "clear.tga"), clear);
-  for (const char* name : {"a.jpg", "a.webp", "a.bmp"}) {
+  for (const char* name : {"a.jpg", "a.bmp"}) {
     EXPECT_EQ(CodeOf([&] { WriteImage(folder / name, clear); }), ErrorCode::InvalidUsage) << name;
   }
 }
@@ -208,7 +169,7 @@ TEST(Module, ItsAbsenceIsOneClearLine) {
   EXPECT_TRUE(folder.Names().empty());
   // A file of that name that is no module: its own trouble is reported.
   const std::vector<std::filesystem::path> broken = {folder.path()};
-  WriteFileWhole(folder / "facet_oiio.so", exr);
+  WriteFile(folder / "facet_oiio.so", exr);
   OverrideOiioSearch(&broken);
   EXPECT_EQ(CodeOf([&] { DecodeImage(exr, "sky.exr"); }, &what), ErrorCode::MissingModule);
   EXPECT_NE(what.find("does not open"), std::string::npos) << what;

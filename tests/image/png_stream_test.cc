@@ -9,7 +9,7 @@
 namespace facet {
 namespace {
 
-const PngText kBefore = {{"Software", "facet"}, {"facet:film", "0000"}},
+const ImageText kBefore = {{"Software", "facet"}, {"facet:film", "0000"}},
               kAfter = {{"Software", "facet"}, {"facet:film", "beef"}};
 
 Image Rows(const Image& image, int begin, int end) {
@@ -22,7 +22,7 @@ Image Rows(const Image& image, int begin, int end) {
 
 // Writes `image` in bands of `rows` rows.
 void Stream(const std::filesystem::path& path, const Image& image, int rows) {
-  PngStream png(path, "picture", image, kBefore);
+  PngStream png(path, image, kBefore);
   int meanwhile = 0;
   for (int y = 0; y < image.height; y += rows) {
     png.Add(Rows(image, y, std::min(y + rows, image.height)), [&] { ++meanwhile; });
@@ -40,10 +40,10 @@ TEST(PngStream, HoldsWhatWasAddedWhateverTheBands) {
       const Image image = MakePattern(37, 200, channels, type, encoding);
       for (const int rows : {1, 63, 64, 130, 200}) {
         Stream(path, image, rows);
-        const std::vector<std::byte> bytes = ReadFileWhole(path);
+        const std::vector<std::byte> bytes = ReadBytes(path);
         const Image read = DecodeImage(bytes, "picture");  // every checksum is verified
         EXPECT_TRUE(read.bytes == image.bytes && read.channels == channels && read.type == type) << rows;
-        EXPECT_EQ(ReadPngText(bytes, "picture"),
+        EXPECT_EQ(ReadImageText(bytes, "picture"),
                   (std::map<std::string, std::string>{{"Software", "facet"}, {"facet:film", "beef"}}));
       }
     }
@@ -60,7 +60,7 @@ TEST(PngStream, BeginsLikeTheWholePicture) {
     const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     return text.substr(0, text.find("IDAT") - 4);
   };
-  EXPECT_EQ(head(ReadFileWhole(path)), head(EncodePng(image, kAfter)));
+  EXPECT_EQ(head(ReadBytes(path)), head(EncodePng(image, kAfter)));
 }
 
 TEST(PngStream, PacksWhatRepeats) {
@@ -76,13 +76,13 @@ TEST(PngStream, RefusesWhatDoesNotFit) {
   const std::filesystem::path path = folder / "picture.png";
   const Image image = MakePattern(8, 8, 3, ChannelType::U8);
   const auto nothing = [] {};
-  EXPECT_EQ(CodeOf([&] { PngStream(path, "p", MakePattern(8, 8, 3, ChannelType::F32), {}); }), ErrorCode::InvalidUsage);
-  EXPECT_EQ(CodeOf([&] { PngStream(path, "p", image, {{"", "no keyword"}}); }), ErrorCode::InvalidUsage);
+  EXPECT_EQ(CodeOf([&] { PngStream(path, MakePattern(8, 8, 3, ChannelType::F32), {}); }), ErrorCode::InvalidUsage);
+  EXPECT_EQ(CodeOf([&] { PngStream(path, image, {{"", "no keyword"}}); }), ErrorCode::InvalidUsage);
   std::string what;
-  EXPECT_EQ(CodeOf([&] { PngStream(folder / "none" / "picture.png", "p.png", image, {}); }, &what),
+  EXPECT_EQ(CodeOf([&] { PngStream(folder / "none" / "picture.png", image, {}); }, &what),
             ErrorCode::OutputFailed);
-  EXPECT_EQ(what.rfind("p.png: cannot be written: ", 0), 0u) << what;
-  PngStream png(path, "p", image, kBefore);
+  EXPECT_NE(what.find("none/picture.png: cannot be written: No such file"), std::string::npos) << what;
+  PngStream png(path, image, kBefore);
   EXPECT_EQ(CodeOf([&] { png.Add(MakePattern(8, 1, 4, ChannelType::U8), nothing); }), ErrorCode::InvalidUsage);
   EXPECT_EQ(CodeOf([&] { png.Add(MakePattern(7, 1, 3, ChannelType::U8), nothing); }), ErrorCode::InvalidUsage);
   png.Add(Rows(image, 0, 5), nothing);

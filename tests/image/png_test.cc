@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/memory_budget.h"
 #include "facet/film.h"
 #include "facet/load.h"
 #include "image/codec.h"
@@ -46,7 +47,7 @@ TEST(Png, BytesAreDeterministicAndCarryText) {
   EXPECT_NE(file.find(std::string("iTXtAuthor\0\0\0\0\0J\xC3\xBCrgen", 22)), std::string::npos);
   EXPECT_NE(file.find("sRGB"), std::string::npos);
   ExpectSame(DecodeImage(bytes, "picture"), image);
-  const std::map<std::string, std::string> read = ReadPngText(bytes, "picture");
+  const std::map<std::string, std::string> read = ReadImageText(bytes, "picture");
   EXPECT_EQ(read, (std::map<std::string, std::string>{{"Software", "facet"}, {"Author", "J\xC3\xBCrgen"}}));
   for (const char* key : {"", " a", "a ", "a  b", "a\nb"}) {
     EXPECT_EQ(CodeOf([&] { EncodePng(image, {{key, "value"}}); }), ErrorCode::InvalidUsage) << key;
@@ -55,11 +56,11 @@ TEST(Png, BytesAreDeterministicAndCarryText) {
 
 TEST(Png, TextOfBrokenFilesIsRefused) {
   auto bytes = EncodePng(MakePattern(20, 20, 4, ChannelType::U8), {{"Software", "facet"}});
-  EXPECT_EQ(CodeOf([&] { ReadPngText(std::span(bytes).first(0), "picture"); }), ErrorCode::InvalidInput);
-  EXPECT_EQ(CodeOf([&] { ReadPngText(std::span(bytes).first(70), "picture"); }), ErrorCode::InvalidInput);
+  EXPECT_EQ(CodeOf([&] { ReadImageText(std::span(bytes).first(0), "picture"); }), ErrorCode::InvalidInput);
+  EXPECT_EQ(CodeOf([&] { ReadImageText(std::span(bytes).first(70), "picture"); }), ErrorCode::InvalidInput);
   const std::string_view file(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   bytes[file.find("facet")] = std::byte('F');  // the checksum no longer fits
-  EXPECT_EQ(CodeOf([&] { ReadPngText(bytes, "picture"); }), ErrorCode::InvalidInput);
+  EXPECT_EQ(CodeOf([&] { ReadImageText(bytes, "picture"); }), ErrorCode::InvalidInput);
 }
 
 // Files that facet does not write, made by libpng itself.
@@ -72,6 +73,7 @@ struct RawPng {
   png_color_16 transparent{};
   bool has_transparent = false;
   double gamma = 0.0;
+  std::string packed_text;  // compressed
 };
 
 std::vector<std::byte> Make(const RawPng& raw) {
@@ -94,6 +96,13 @@ std::vector<std::byte> Make(const RawPng& raw) {
   }
   if (raw.has_transparent) png_set_tRNS(png, info, nullptr, 0, &raw.transparent);
   if (raw.gamma > 0.0) png_set_gAMA(png, info, raw.gamma);
+  std::string text = raw.packed_text, key = "a";
+  png_text chunk{};
+  chunk.compression = PNG_TEXT_COMPRESSION_zTXt;
+  chunk.key = key.data();
+  chunk.text = text.data();
+  chunk.text_length = text.size();
+  if (!text.empty()) png_set_text(png, info, &chunk, 1);
   png_write_info(png, info);
   const std::size_t row_bytes = png_get_rowbytes(png, info);
   std::vector<unsigned char> data = raw.rows;
@@ -165,18 +174,90 @@ TEST(Png, InterlacingAndGammaChangeNothing) {
   ExpectSame(DecodeImage(Make(raw), "interlaced"), pattern);
 }
 
+// Says that the picture has another size.
+void WithSize(std::vector<std::byte>& bytes, std::uint32_t width, std::uint32_t height) {
+  const auto set = [&](std::size_t at, std::uint32_t value) {
+    for (std::size_t i = 0; i < 4; ++i) bytes[at + i] = static_cast<std::byte>(value >> (24 - 8 * i));
+  };
+  set(16, width);
+  set(20, height);
+  std::uint32_t crc = ~0u;
+  for (std::size_t i = 12; i < 29; ++i) {
+    crc ^= static_cast<std::uint32_t>(bytes[i]);
+    for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1) ^ ((crc & 1u) ? 0xEDB88320u : 0u);
+  }
+  set(29, ~crc);
+}
+
+// What is broken is an error, or is told and has touched no pixel.
+void ExpectErrorOrHarmless(std::span<const std::byte> bytes, const Image& image, bool must_fail, std::size_t at) {
+  try {
+    const Image decoded = DecodeImage(bytes, "broken");
+    EXPECT_TRUE(decoded.bytes == image.bytes) << at;
+    EXPECT_NE(decoded.damage, "") << at;
+    EXPECT_FALSE(must_fail) << at;
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::InvalidInput) << at;
+  }
+}
+
 TEST(Png, EveryTruncationAndEveryFlippedByteIsAnErrorOrHarmless) {
   const Image image = MakePattern(16, 16, 4, ChannelType::U8);
-  const auto bytes = EncodePng(image);
+  const auto bytes = EncodePng(image, {{"Author", "nobody"}});
+  EXPECT_EQ(DecodeImage(bytes, "whole").damage, "");
+  const std::string_view file(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  const std::size_t idat = file.find("IDAT") - 4, iend = file.find("IEND") - 4;
   for (std::size_t length = 0; length < bytes.size(); ++length) {
-    EXPECT_EQ(CodeOf([&] { DecodeImage(std::span(bytes).first(length), "cut"); }), ErrorCode::InvalidInput) << length;
+    // Behind the last pixel there are a checksum of zlib's and one of the chunk.
+    ExpectErrorOrHarmless(std::span(bytes).first(length), image, length < iend - 8, length);
   }
   // Every byte behind the signature is under a checksum or is one.
   for (std::size_t at = 8; at < bytes.size(); ++at) {
     auto broken = bytes;
     broken[at] ^= std::byte{0x10};
-    EXPECT_THROW(DecodeImage(broken, "flipped"), Error) << at;
+    constexpr std::size_t kEndOfHeader = 33;
+    ExpectErrorOrHarmless(broken, image, at < kEndOfHeader || (at >= idat && at < iend), at);
   }
+}
+
+// 74 bytes that say they are an interlaced picture of 2 GiB.
+TEST(Png, WhatCannotHoldItsPixelsTakesNoMemory) {
+  RawPng raw;
+  raw.color_type = PNG_COLOR_TYPE_RGB_ALPHA;
+  raw.bit_depth = 16;
+  raw.interlace = PNG_INTERLACE_ADAM7;
+  raw.width = 4;
+  raw.rows = std::vector<unsigned char>(32);
+  auto bytes = Make(raw);
+  WithSize(bytes, 16384, 16384);
+  std::string what;
+  EXPECT_EQ(CodeOf([&] { DecodeImage(bytes, "small.png"); }, &what), ErrorCode::InvalidInput);
+  EXPECT_EQ(what, "small.png: broken PNG: the file is cut off");
+}
+
+TEST(Png, TheMemoryLimitHoldsBeforeThePixelsAreThere) {
+  const auto bytes = EncodePng(MakePattern(1000, 1000, 3, ChannelType::U8));
+  MemoryBudget budget(std::uint64_t{1} << 20);
+  const MemoryBudget::Scope scope(budget);
+  std::string what;
+  EXPECT_EQ(CodeOf([&] { DecodeImage(bytes, "large.png"); }, &what), ErrorCode::OutOfMemory);
+  EXPECT_NE(what.find("3.0 MiB for decoding an image of 1000 x 1000 pixels"), std::string::npos) << what;
+  DecodeImageRows(bytes, "large.png", [](const Image&, int) {});  // some rows at a time fit
+  EXPECT_EQ(budget.Left(), budget.limit());
+}
+
+// A megabyte of text is enough for anybody: of more, or of very many, none is unpacked.
+TEST(Png, TextBombsAreLeftPacked) {
+  RawPng raw;
+  raw.rows = std::vector<unsigned char>(4);
+  raw.packed_text = std::string(1 << 19, 'a');
+  EXPECT_EQ(ReadImageText(Make(raw), "picture").at("a"), raw.packed_text);
+  raw.packed_text = std::string(1 << 23, 'a');
+  EXPECT_TRUE(ReadImageText(Make(raw), "picture").empty());
+  const Image image = MakePattern(4, 4, 3, ChannelType::U8);
+  ImageText many;
+  for (int i = 0; i < 1000; ++i) many.push_back({"key " + std::to_string(i), "value"});
+  EXPECT_LT(ReadImageText(EncodePng(image, many), "picture").size(), 100u);
 }
 
 TEST(Png, RefusesBombsByTheirSize) {
@@ -184,29 +265,13 @@ TEST(Png, RefusesBombsByTheirSize) {
   raw.width = 8;
   raw.rows = std::vector<unsigned char>(8);
   auto bytes = Make(raw);
-  const auto set = [&](std::size_t at, std::uint32_t value) {
-    for (std::size_t i = 0; i < 4; ++i) bytes[at + i] = static_cast<std::byte>(value >> (24 - 8 * i));
-  };
-  const auto fix_checksum = [&] {
-    std::uint32_t crc = ~0u;
-    for (std::size_t i = 12; i < 29; ++i) {
-      crc ^= static_cast<std::uint32_t>(bytes[i]);
-      for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1) ^ ((crc & 1u) ? 0xEDB88320u : 0u);
-    }
-    set(29, ~crc);
-  };
   std::string what;
-  set(16, 100000);
-  set(20, 8);
-  fix_checksum();
+  WithSize(bytes, 100000, 8);
   EXPECT_EQ(CodeOf([&] { DecodeImage(bytes, "bomb"); }, &what), ErrorCode::OutOfMemory);
   EXPECT_NE(what.find("100000 x 8"), std::string::npos) << what;
-  set(16, 32768);
-  set(20, 32768);
-  fix_checksum();
+  WithSize(bytes, 32768, 32768);
   EXPECT_EQ(CodeOf([&] { DecodeImage(bytes, "bomb"); }, &what), ErrorCode::OutOfMemory);
-  set(16, 0);
-  fix_checksum();
+  WithSize(bytes, 0, 32768);
   EXPECT_EQ(CodeOf([&] { DecodeImage(bytes, "empty"); }, &what), ErrorCode::InvalidInput);
 }
 

@@ -239,7 +239,7 @@ TEST(Probe, AgreesWithDecodingOnTheCorpus) {
   std::size_t webp_count = 0;
   for (const auto& path : paths) {
     SCOPED_TRACE(path.string());
-    const auto bytes = ReadFileWhole(path);
+    const auto bytes = ReadBytes(path);
     const auto header = ProbeImage(bytes);
     ASSERT_TRUE(header);
     EXPECT_GT(header->width, 0);

@@ -96,8 +96,8 @@ TEST(Radiance, AgreesWithOpenImageIoOnRealEnvironments) {
   FACET_NEEDS_CORPUS();
   for (const auto& entry : std::filesystem::directory_iterator(Corpus() / "environments")) {
     if (entry.path().extension() != ".hdr") continue;
-    const auto bytes = ReadFileWhole(entry.path());
-    ExpectSame(DecodeImage(bytes, "ours"), DecodeWithOiio(bytes, "theirs"));
+    const auto bytes = ReadBytes(entry.path());
+    ExpectSame(DecodeImage(bytes, "ours"), DecodeWithOiio(bytes, "hdr", "theirs"));
     for (std::size_t i = 1; i < 40; ++i) {
       EXPECT_EQ(CodeOf([&] { DecodeImage(std::span(bytes).first(bytes.size() * i / 40), "cut"); }),
                 ErrorCode::InvalidInput);

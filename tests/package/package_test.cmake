@@ -40,6 +40,23 @@ message(STATUS "${output}")
 run(${WORK_DIR}/file_consumer/shader_consumer ${scene} ${WORK_DIR}/toon.png)
 message(STATUS "${output}")
 
+# A shader of one's own in a project that says nothing of optimisation, and in one that wants none: the same picture.
+foreach(type IN ITEMS None Debug)
+  run(${CMAKE_COMMAND} -S ${TEST_DIR}/file_consumer -B ${WORK_DIR}/file_consumer_${type} -G ${GENERATOR}
+      -DCMAKE_CXX_COMPILER=${CXX_COMPILER} -DCMAKE_BUILD_TYPE=${type} -DCMAKE_PREFIX_PATH=${prefix}
+      "-DCMAKE_CXX_FLAGS=${flags}" -DEXAMPLES=${EXAMPLES})
+  run(${CMAKE_COMMAND} --build ${WORK_DIR}/file_consumer_${type} --target shader_consumer)
+  run(${WORK_DIR}/file_consumer_${type}/shader_consumer ${scene} ${WORK_DIR}/toon_${type}.png)
+  run(${CMAKE_COMMAND} -E compare_files ${WORK_DIR}/toon.png ${WORK_DIR}/toon_${type}.png)
+endforeach()
+
+# What the README leads to is there.
+foreach(page IN ITEMS README.md docs/library.md docs/golden-tests.md docs/examples/toon.h docs/pictures/showcase.jpg)
+  if(NOT EXISTS ${prefix}/share/doc/facet/${page})
+    message(FATAL_ERROR "${page} is not among the installed documentation")
+  endif()
+endforeach()
+
 # The program, as it was installed.
 run(${prefix}/bin/facet info ${scene})
 run(${prefix}/bin/facet render ${scene} -o ${WORK_DIR}/program.png --size 64x64)

@@ -1,0 +1,15 @@
+// JSON from anybody, before a parser sees it.
+#pragma once
+
+#include <string_view>
+
+namespace facet {
+
+// Whether objects and arrays lie in one another more than `levels` deep. Whoever walks through values by recursion asks
+// before: 20,000 brackets in a file would overflow the stack. Takes any text.
+bool IsJsonDeeperThan(std::string_view text, int levels);
+
+// What facet's own files have at most, and more than anybody's glTF files need.
+inline constexpr int kMaxJsonDepth = 128;
+
+}  // namespace facet

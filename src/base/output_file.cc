@@ -1,0 +1,272 @@
+#include "base/output_file.h"
+
+#include <dirent.h>
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/random.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <ctime>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include "base/printable.h"
+#include "facet/error.h"
+
+namespace facet {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kTemporaryStart = ".facet-", kTemporaryEnd = ".part";
+constexpr std::size_t kRandomDigits = 16;
+
+// Of fixed length, so that a target's name may be as long as names can be.
+std::string TemporaryName() {
+  std::uint64_t random = 0;
+  while (::getrandom(&random, sizeof random, 0) != sizeof random) {
+    if (errno != EINTR) throw Error(ErrorCode::Internal, "the system gives no random numbers");
+  }
+  char digits[kRandomDigits + 1];
+  std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(random));
+  return std::string(kTemporaryStart) + digits + std::string(kTemporaryEnd);
+}
+
+bool IsTemporaryName(std::string_view name) {
+  if (!name.starts_with(kTemporaryStart) || !name.ends_with(kTemporaryEnd)) return false;
+  name.remove_prefix(kTemporaryStart.size());
+  name.remove_suffix(kTemporaryEnd.size());
+  return name.size() == kRandomDigits && name.find_first_not_of("0123456789abcdef") == std::string_view::npos;
+}
+
+fs::path FolderOf(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
+
+// Removes temporary files that no process has locked: their writers were killed. Only those of this user, and of a
+// folder with very many files only what comes first, because the next picture shall not wait for that.
+void RemoveAbandonedFiles(const fs::path& folder) {
+  constexpr int kMostEntries = 65536;
+  DIR* const list = ::opendir(folder.c_str());
+  if (list == nullptr) return;
+  for (int i = 0; i < kMostEntries; ++i) {
+    const dirent* const entry = ::readdir(list);
+    if (entry == nullptr) break;
+    if (!IsTemporaryName(entry->d_name)) continue;
+    const int file = ::openat(::dirfd(list), entry->d_name, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    if (file < 0) continue;
+    struct stat status {};
+    if (::fstat(file, &status) == 0 && S_ISREG(status.st_mode) && status.st_uid == ::geteuid() &&
+        ::flock(file, LOCK_EX | LOCK_NB) == 0) {
+      ::unlinkat(::dirfd(list), entry->d_name, 0);
+    }
+    ::close(file);
+  }
+  ::closedir(list);
+}
+
+// While it lives, writing beyond the limit on the size of files, or to a pipe that nobody reads, fails on this thread;
+// it would end the process otherwise.
+class WritesOnlyFail {
+ public:
+  WritesOnlyFail() {
+    sigset_t pending;
+    ::sigemptyset(&signals_);
+    ::sigpending(&pending);
+    for (const int signal : {SIGXFSZ, SIGPIPE}) {
+      if (::sigismember(&pending, signal) == 0) ::sigaddset(&signals_, signal);  // an earlier one is not ours to take
+    }
+    ::pthread_sigmask(SIG_BLOCK, &signals_, &before_);
+  }
+  ~WritesOnlyFail() {
+    const int error = errno;
+    const timespec now{};
+    while (::sigtimedwait(&signals_, nullptr, &now) > 0) {
+    }
+    ::pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+    errno = error;
+  }
+  WritesOnlyFail(const WritesOnlyFail&) = delete;
+  WritesOnlyFail& operator=(const WritesOnlyFail&) = delete;
+
+ private:
+  sigset_t signals_, before_;
+};
+
+enum class Kind { Plain, Special, ProcessFile };
+
+// Where a name leads to in the end, and what is there. ProcessFile: an open file of a process, such as /dev/stdout,
+// whatever that is: it cannot be replaced, only written to.
+std::pair<fs::path, Kind> Follow(fs::path path) {
+  constexpr int kMostLinks = 40;  // as Linux
+  std::error_code ignored;
+  for (int i = 0; i < kMostLinks && fs::is_symlink(fs::symlink_status(path, ignored)); ++i) {
+    const fs::path next = fs::read_symlink(path, ignored);
+    path = next.is_absolute() ? next : path.parent_path() / next;
+    if (path.string().starts_with("/proc/")) return {path, Kind::ProcessFile};
+  }
+  const fs::file_status status = fs::symlink_status(path, ignored);
+  const bool special = fs::is_fifo(status) || fs::is_character_file(status);
+  return {path, special ? Kind::Special : Kind::Plain};
+}
+
+}  // namespace
+
+OutputFile::OutputFile(const fs::path& path, Links links) : name_(Printable(path.string())) {
+  if (links == Links::Refuse) {
+    std::error_code ignored;
+    const fs::file_type type = fs::symlink_status(path, ignored).type();
+    if (type != fs::file_type::not_found && type != fs::file_type::regular) {
+      throw Error(ErrorCode::OutputFailed, "cannot be written: it is no plain file", name_, "remove it first");
+    }
+    Open(path);
+    return;
+  }
+  const auto [target, kind] = Follow(path);
+  if (kind == Kind::Plain) {
+    std::error_code ignored;
+    if (fs::is_symlink(fs::symlink_status(target, ignored))) Fail(ELOOP);
+    Open(target);
+    return;
+  }
+  const int more = kind == Kind::ProcessFile ? O_APPEND : 0;
+  descriptor_ = ::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY | more);
+  if (descriptor_ < 0) Fail(errno);
+}
+
+void OutputFile::Open(const fs::path& target) {
+  const fs::path folder = FolderOf(target);
+  RemoveAbandonedFiles(folder);
+  target_ = target;
+  constexpr int kMostTries = 16;
+  for (int i = 0; i < kMostTries; ++i) {
+    temporary_ = target.parent_path() / TemporaryName();
+    unfinished_.emplace(temporary_);
+    descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+    if (descriptor_ < 0 && errno == EEXIST) continue;
+    if (descriptor_ < 0) {
+      const int error = errno;
+      unfinished_.reset();
+      Fail(error);
+    }
+    // Another process may have taken the file for an abandoned one before it was locked.
+    ::flock(descriptor_, LOCK_EX);
+    struct stat status {};
+    if (::fstat(descriptor_, &status) != 0 || status.st_nlink > 0) {
+      struct stat before {};
+      if (::stat(target.c_str(), &before) == 0 && S_ISREG(before.st_mode)) ::fchmod(descriptor_, before.st_mode & 0777u);
+      return;
+    }
+    ::close(std::exchange(descriptor_, -1));
+  }
+  unfinished_.reset();
+  Fail(EEXIST);
+}
+
+OutputFile::~OutputFile() {
+  if (descriptor_ < 0) return;
+  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+  ::close(descriptor_);
+}
+
+void OutputFile::Write(std::span<const std::byte> bytes) {
+  const WritesOnlyFail quiet;
+  while (!bytes.empty()) {
+    const ssize_t count = ::write(descriptor_, bytes.data(), bytes.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) Fail(count < 0 ? errno : EIO);
+    bytes = bytes.subspan(static_cast<std::size_t>(count));
+  }
+}
+
+void OutputFile::Rewrite(std::uint64_t offset, std::span<const std::byte> bytes) {
+  const WritesOnlyFail quiet;
+  while (!bytes.empty()) {
+    const ssize_t count = ::pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) Fail(count < 0 ? errno : EIO);
+    offset += static_cast<std::uint64_t>(count);
+    bytes = bytes.subspan(static_cast<std::size_t>(count));
+  }
+}
+
+void OutputFile::Commit() {
+  if (temporary_.empty()) {
+    if (::close(std::exchange(descriptor_, -1)) != 0) Fail(errno);
+    return;
+  }
+  // Otherwise the name may reach the disk before the bytes, and an empty file may be left after a loss of power. Some
+  // file systems report a full disk only here. Those that cannot do it say EINVAL.
+  if (::fsync(descriptor_) != 0 && errno != EINVAL && errno != ENOSYS && errno != EROFS) Fail(errno);
+  if (::rename(temporary_.c_str(), target_.c_str()) != 0) Fail(errno);
+  unfinished_.reset();
+  ::close(std::exchange(descriptor_, -1));
+}
+
+void OutputFile::Fail(int error) const {
+  throw Error(ErrorCode::OutputFailed, std::string("cannot be written: ") + std::strerror(error), name_);
+}
+
+void WriteFile(const fs::path& path, std::initializer_list<std::span<const std::byte>> parts, OutputFile::Links links) {
+  OutputFile file(path, links);
+  for (const std::span<const std::byte> part : parts) file.Write(part);
+  file.Commit();
+}
+
+void WriteFile(const fs::path& path, std::span<const std::byte> bytes, OutputFile::Links links) {
+  WriteFile(path, {bytes}, links);
+}
+
+void WriteFile(const fs::path& path, const std::string& text) { WriteFile(path, std::as_bytes(std::span(text))); }
+
+bool IsPlainFile(const fs::path& path) { return Follow(path).second == Kind::Plain; }
+
+void CheckWritable(const fs::path& path) {
+  const std::string name = Printable(path.string());
+  std::error_code ignored;
+  if (fs::is_directory(path, ignored)) {
+    throw Error(ErrorCode::OutputFailed, "is a folder", name, "give the name of a file");
+  }
+  const auto [target, kind] = Follow(path);
+  if (kind != Kind::Plain) return;
+  const fs::path folder = FolderOf(target);
+  if (!fs::is_directory(folder, ignored)) {
+    throw Error(ErrorCode::OutputFailed, "the folder " + Quoted(folder.string()) + " does not exist", name,
+                "create it first");
+  }
+  // Files are written beside their place and renamed into it, so it is the folder that has to be writable.
+  if (::access(folder.c_str(), W_OK | X_OK) != 0) {
+    throw Error(ErrorCode::OutputFailed,
+                "the folder " + Quoted(folder.string()) + " cannot be written: " + std::strerror(errno), name);
+  }
+}
+
+void RefuseOverwriting(const std::vector<fs::path>& outputs, const std::vector<fs::path>& inputs) {
+  std::error_code ignored;
+  // Of files that are not there yet the names are compared.
+  const auto same = [&](const fs::path& a, const fs::path& b) {
+    if (fs::exists(a, ignored)) return fs::equivalent(a, b, ignored);
+    return fs::weakly_canonical(a, ignored) == fs::weakly_canonical(b, ignored);
+  };
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    if (!IsPlainFile(outputs[i])) continue;
+    const std::string name = Printable(outputs[i].string());
+    for (std::size_t k = 0; k < i; ++k) {
+      if (same(outputs[i], outputs[k])) {
+        throw Error(ErrorCode::InvalidUsage, "is given for two outputs", name, "give each a name of its own");
+      }
+    }
+    for (const fs::path& input : inputs) {
+      if (same(outputs[i], input)) {
+        throw Error(ErrorCode::InvalidUsage, "is also an input, and would be overwritten", name, "give another name");
+      }
+    }
+  }
+}
+
+}  // namespace facet

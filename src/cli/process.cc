@@ -1,0 +1,69 @@
+#include "cli/process.h"
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <string_view>
+#include <thread>
+
+#include "base/memory_budget.h"
+#include "base/unfinished_files.h"
+#include "facet/error.h"
+
+namespace facet::cli {
+namespace {
+
+// The signal's own end follows, so that whoever started the program sees it.
+void OnEnd(int signal) {
+  RemoveUnfinishedFiles();
+  std::signal(signal, SIG_DFL);
+  std::raise(signal);
+}
+
+// A page of a mapped file that is no longer there.
+void OnBusError(int) {
+  RemoveUnfinishedFiles();
+  constexpr std::string_view kLine =
+      "facet: a file was cut short while it was in use; leave inputs as they are, or read them whole with --no-mmap\n";
+  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, kLine.data(), kLine.size());
+  ::_exit(ExitCode(ErrorCode::NotFound));
+}
+
+void Handle(int signal, void (*handler)(int)) {
+  struct sigaction before {};
+  // What the caller has switched off, as nohup does, stays so.
+  if (::sigaction(signal, nullptr, &before) != 0 || before.sa_handler == SIG_IGN) return;
+  struct sigaction action {};
+  action.sa_handler = handler;
+  ::sigemptyset(&action.sa_mask);
+  action.sa_flags = static_cast<int>(SA_RESETHAND | SA_NODEFER);
+  ::sigaction(signal, &action, nullptr);
+}
+
+}  // namespace
+
+void HandleSignals() {
+  for (const int signal : {SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGPIPE, SIGALRM, SIGXCPU, SIGUSR1, SIGUSR2}) {
+    Handle(signal, OnEnd);
+  }
+  Handle(SIGBUS, OnBusError);
+  std::signal(SIGXFSZ, SIG_IGN);
+}
+
+void LimitMemory(std::uint64_t limit) {
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && !defined(FACET_SANITIZED)
+  constexpr std::uint64_t kProgram = std::uint64_t{96} << 20, kStack = std::uint64_t{9} << 20;
+  if (limit == 0) limit = DefaultMemoryLimit();
+  // The libraries' own, a stack for each thread, and what the heap holds that is free but in pieces.
+  const std::uint64_t all = limit + limit / 4 + kProgram + std::thread::hardware_concurrency() * kStack;
+  rlimit data{};
+  if (::getrlimit(RLIMIT_DATA, &data) != 0 || all >= data.rlim_cur) return;
+  data.rlim_cur = all;
+  ::setrlimit(RLIMIT_DATA, &data);
+#else
+  static_cast<void>(limit);  // a sanitizer's own memory is beyond any limit
+#endif
+}
+
+}  // namespace facet::cli
