@@ -38,10 +38,10 @@ TypeDesc TypeOf(ChannelType type) {
   return type == ChannelType::U8 ? TypeDesc::UINT8 : type == ChannelType::U16 ? TypeDesc::UINT16 : TypeDesc::FLOAT;
 }
 
-// A file in memory, for readers and writers that want a name; gone with the object.
+// A file with these bytes, in memory, for the readers that want a name; gone with the object.
 class MemoryFile {
  public:
-  explicit MemoryFile(std::string_view bytes = {}) : descriptor_(::memfd_create("facet image", MFD_CLOEXEC)) {
+  explicit MemoryFile(std::string_view bytes) : descriptor_(::memfd_create("facet image", MFD_CLOEXEC)) {
     while (descriptor_ >= 0 && !bytes.empty()) {
       const ssize_t count = ::write(descriptor_, bytes.data(), bytes.size());
       if (count < 0 && errno == EINTR) continue;
@@ -59,22 +59,33 @@ class MemoryFile {
 
   std::string path() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
 
-  // What it holds, in memory of malloc's.
-  void Copy(void** bytes, std::size_t* size) const {
-    *size = static_cast<std::size_t>(std::max<off_t>(::lseek(descriptor_, 0, SEEK_END), 0));
-    *bytes = std::malloc(std::max<std::size_t>(*size, 1));
-    if (*bytes == nullptr) throw std::bad_alloc();
-    for (std::size_t done = 0; done < *size;) {
-      const ssize_t count =
-          ::pread(descriptor_, static_cast<char*>(*bytes) + done, *size - done, static_cast<off_t>(done));
-      if (count < 0 && errno == EINTR) continue;
-      if (count <= 0) throw Failure{FACET_OIIO_OUTPUT_FAILED, "the file cannot be read back"};
-      done += static_cast<std::size_t>(count);
-    }
-  }
-
  private:
   int descriptor_;
+};
+
+// Takes what is written to a file. OpenImageIO's own class cuts off what stands behind a place that is written anew, as
+// TIFF's directory is.
+class MemoryOutput final : public OIIO::Filesystem::IOProxy {
+ public:
+  MemoryOutput() : IOProxy("", Write) {}
+  const char* proxytype() const override { return "facet output"; }
+  std::size_t size() const override { return bytes_.size(); }
+  std::size_t write(const void* from, std::size_t count) override {
+    count = pwrite(from, count, m_pos);
+    m_pos += static_cast<std::int64_t>(count);
+    return count;
+  }
+  std::size_t pwrite(const void* from, std::size_t count, std::int64_t offset) override {
+    if (offset < 0) return 0;
+    const auto at = static_cast<std::size_t>(offset);
+    bytes_.resize(std::max(bytes_.size(), at + count));
+    std::memcpy(bytes_.data() + at, from, count);
+    return count;
+  }
+  const std::vector<unsigned char>& bytes() const { return bytes_; }
+
+ private:
+  std::vector<unsigned char> bytes_;
 };
 
 std::string OneLine(std::string text) {
@@ -186,8 +197,9 @@ void Encode(const std::string& extension, const FacetOiioPicture& picture, bool 
   };
   auto output = ImageOutput::create(extension);
   if (!output) fail(OIIO::geterror());
-  // Files are written by facet itself: only into memory here. (OpenImageIO's own way of doing that fails for TIFF.)
-  const MemoryFile memory;
+  // Files are written by facet itself: only into memory here.
+  MemoryOutput memory;
+  if (!output->supports("ioproxy") || !output->set_ioproxy(&memory)) fail("this format is not encoded in memory");
   const TypeDesc type = TypeOf(static_cast<ChannelType>(picture.type));
   ImageSpec spec(picture.width, picture.height, picture.channels, type);
   spec.channelnames.clear();
@@ -201,14 +213,21 @@ void Encode(const std::string& extension, const FacetOiioPicture& picture, bool 
   const bool has_alpha = picture.channels == 2 || picture.channels == 4;
   spec.alpha_channel = has_alpha ? picture.channels - 1 : -1;
   if (has_alpha && !premultiplied) spec.attribute("oiio:UnassociatedAlpha", 1);
-  spec.attribute("oiio:ColorSpace", picture.encoding == static_cast<int>(Encoding::Linear) ? "Linear" : "sRGB");
+  // In TIFF it would become EXIF data, which OpenImageIO 2.4 cannot write to memory; readers take integers for sRGB there
+  // and floats for linear, as it is.
+  if (!extension.starts_with("tif")) {
+    spec.attribute("oiio:ColorSpace", picture.encoding == static_cast<int>(Encoding::Linear) ? "Linear" : "sRGB");
+  }
   // OpenImageIO stamps EXR and TIFF with the present time; the file is to be a function of the picture alone.
   spec.attribute("DateTime", "1970:01:01 00:00:00");
   for (const FacetOiioText& entry : text) spec.attribute(entry.keyword, entry.value);
-  if (!output->open(memory.path(), spec)) fail(output->geterror());
+  if (!output->open("picture." + extension, spec)) fail(output->geterror());
   if (!output->write_image(type, picture.pixels)) fail(output->geterror());
   if (!output->close()) fail(output->geterror());
-  memory.Copy(bytes, size);
+  *size = memory.bytes().size();
+  *bytes = std::malloc(std::max<std::size_t>(*size, 1));
+  if (*bytes == nullptr) throw std::bad_alloc();
+  std::memcpy(*bytes, memory.bytes().data(), *size);
 }
 
 // No exception leaves the module.
