@@ -7,7 +7,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 facet=${1:-build/release/facet}
 corpus=${FACET_CORPUS:-../shared/corpus}
 
-"$facet" check tests/golden/goldens.json --update
+"$facet" check tests/golden/goldens.json --root . --update
 
 if [[ -d $corpus ]]; then
   corpus=$(realpath "$corpus")
@@ -15,7 +15,7 @@ if [[ -d $corpus ]]; then
   trap 'rm -rf "$folder"' EXIT
   sed "s|@CORPUS@|$corpus|" tests/golden/corpus.json.in > "$folder/corpus.json"
   status=0
-  "$facet" check "$folder/corpus.json" --update || status=$?
+  "$facet" check "$folder/corpus.json" --root / --update || status=$?
   sed "s|$corpus|@CORPUS@|" "$folder/corpus.json" > tests/golden/corpus.json.in
   (( status == 0 )) || exit "$status"
 else

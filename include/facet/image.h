@@ -69,6 +69,10 @@ class ImageSource {
   // What the first bytes say, without decoding; nullopt where they say nothing, or are not there. It is no promise that
   // Decode() succeeds. Throws nothing but what the lack of memory makes it throw.
   virtual std::optional<ImageHeader> Header() const { return std::nullopt; }
+  // True where Decode() may succeed though it failed before, as of a file that was not there yet.
+  virtual bool MayChange() const { return false; }
+  // The memory that the source takes for as long as it lives.
+  virtual std::size_t BytesHeld() const { return 0; }
 };
 
 // An ImageSource over a picture that is already in memory. Its header has no format, and the pixels' size in bytes.

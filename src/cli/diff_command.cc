@@ -3,6 +3,7 @@
 #include <new>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/output_file.h"
@@ -23,6 +24,9 @@ constexpr int kWithin = 0, kDifferent = 1;
 ImageDifference Compare(const DiffOptions& options) {
   const Image a = LoadImage(options.a, options.compare.memory_limit);
   const Image b = LoadImage(options.b, options.compare.memory_limit);
+  for (const auto& [path, image] : {std::pair(options.a, &a), std::pair(options.b, &b)}) {
+    if (!image->damage.empty()) PrintWarning(path.string() + ": " + image->damage);
+  }
   try {
     return CompareImages(a, b, options.compare);
   } catch (const Error& error) {  // which does not know the files

@@ -20,6 +20,7 @@ class MemoryImage final : public ImageSource {
     const int bits = 8 * static_cast<int>(SizeOf(image_.type));
     return ImageHeader{{}, image_.width, image_.height, image_.channels, bits, image_.bytes.size()};
   }
+  std::size_t BytesHeld() const override { return image_.bytes.size(); }
 
  private:
   Image image_;

@@ -292,6 +292,7 @@ class Renderer::Frames {
     }
     stats.environment_bytes = BytesOf(*environment_);
     stats.environment_size = environment_->levels[0].size;
+    if (image != nullptr && !image->damage.empty()) stats.warnings.push_back("environment: " + image->damage);
     if (environment_->repaired_values > 0) {
       stats.warnings.push_back("environment: " + std::to_string(environment_->repaired_values) +
                                " values were not finite, negative or too large, and were replaced");

@@ -84,6 +84,10 @@ void DecodeTextures(const Scene& scene, const std::vector<bool>& material_visibl
       if (t >= 0) needed[std::size_t(t)] = true;
     }
   }
+  for (std::size_t t = 0; t < needed.size(); ++t) {
+    const int image = plan.textures[t].image;
+    if (image != kWhiteImage && scene.images[std::size_t(image)].source->MayChange()) textures.entries[t].problem.clear();
+  }
   CheckSizes(scene, needed, texels, plan, textures, budget);
   // An image that is read in two roles is decoded once.
   std::vector<int> images;
@@ -118,7 +122,9 @@ void DecodeTextures(const Scene& scene, const std::vector<bool>& material_visibl
     const ImageSource& source = *scene.images[std::size_t(images[i])].source;
     try {
       std::map<FrameTextures::Entry*, TextureBuilder> builders;
+      std::string damage;
       source.DecodeRows([&](const Image& rows, int height) {
+        if (!rows.damage.empty()) damage = source.Name() + ": " + rows.damage;
         for_each_role([&](const PlannedTexture& planned, FrameTextures::Entry& entry) {
           builders
               .try_emplace(&entry, rows, height, planned.role, planned.mips, texels, planned.channels, planned.emission)
@@ -126,7 +132,10 @@ void DecodeTextures(const Scene& scene, const std::vector<bool>& material_visibl
         });
       });
       if (builders.empty()) throw Error(ErrorCode::InvalidInput, "a picture without rows");
-      for (auto& [entry, builder] : builders) entry->data = std::make_unique<const TextureData>(builder.Finish());
+      for (auto& [entry, builder] : builders) {
+        entry->data = std::make_unique<const TextureData>(builder.Finish());
+        entry->damage = damage;
+      }
     } catch (const Error& error) {
       if (error.code() != ErrorCode::InvalidInput && error.code() != ErrorCode::NotFound) {
         failures[i] = std::current_exception();
@@ -150,10 +159,14 @@ void DecodeTextures(const Scene& scene, const std::vector<bool>& material_visibl
                                 data.level_height[0], data.levels, data.stored, data.wide ? 16 : 8, data.bytes.size(),
                                 data.dark.Share()});
     }
-    if (!needed[t] || entry.problem.empty()) continue;
+    if (!needed[t] || (entry.problem.empty() && entry.damage.empty())) continue;
     const int image = plan.textures[t].image;
     if (std::find(warned.begin(), warned.end(), image) != warned.end()) continue;
     warned.push_back(image);
+    if (entry.problem.empty()) {
+      stats.warnings.push_back(entry.damage);
+      continue;
+    }
     stats.warnings.push_back(entry.problem + " (drawn without this texture)");
     if (std::find(images.begin(), images.end(), image) != images.end()) --stats.images_decoded;
   }

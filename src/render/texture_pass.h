@@ -18,6 +18,7 @@ struct FrameTextures {
   struct Entry {
     std::unique_ptr<const TextureData> data;  // null: no visible material needed it yet, or it could not be decoded
     std::string problem;                      // why it could not be decoded
+    std::string damage;                       // what was broken in the file, where it could be decoded all the same
   };
   std::vector<PlannedTexture> planned;  // equal to FramePlan::textures
   TexelBits texels = TexelBits::Mixed;

@@ -117,10 +117,9 @@ ResolvedCamera ResolveOrbit(const OrbitCamera& orbit, const Scene& scene, const 
     KnownBall unknown;
     const OrbitBall& ball = Ball(scene, posed, orbit.target, known != nullptr ? *known : unknown);
     target = ball.centre;
-    const double radius = posed.drawables.empty() && ball.radius == 0.0 ? 0.5 * std::sqrt(3.0) : ball.radius;
     // The sine of the angle whose tangent is that of the narrower side.
     const double narrow = Tan(0.5 * yfov) * std::min(aspect, 1.0);
-    framing.distance = kMargin * radius * std::sqrt(1.0 + narrow * narrow) / narrow;
+    framing.distance = kMargin * ball.radius * std::sqrt(1.0 + narrow * narrow) / narrow;
     if (!(framing.distance > 0.0)) framing.distance = 1.0;
   }
   return PlaceOrbit(orbit, posed, OrbitAxes(orbit.theta, orbit.phi), target, framing, aspect);

@@ -105,6 +105,11 @@ OrbitBall MeasureBall(const Scene& scene, const PosedScene& posed, const std::op
     for (const Drawable& drawable : posed.drawables) {
       AddReach(drawable.geometry->positions, drawable.bounds_mesh, drawable.world_from_mesh, ball.centre, ball.radius);
     }
+    if (posed.drawables.empty()) {
+      const Bounds& b = posed.bounds;
+      const glm::dvec3 low = b.empty ? glm::dvec3(-0.5) : b.low, high = b.empty ? glm::dvec3(0.5) : b.high;
+      ball.radius = glm::length(glm::max(glm::abs(low - ball.centre), glm::abs(high - ball.centre)));
+    }
     return ball;
   }
   if (centre) {

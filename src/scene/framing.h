@@ -30,7 +30,7 @@ ViewExtent MeasureView(const PosedScene& posed, const glm::dvec3& target, const 
 // moves the eye nearer or farther.
 struct OrbitBall {
   glm::dvec3 centre{0.0};
-  double radius = 0.0;  // 0 where there are no vertices
+  double radius = 0.0;  // of the bounds where nothing is drawn
 };
 
 // The ball of a scene that is posed. `centre`: none: the centre of the bounds of all those poses.

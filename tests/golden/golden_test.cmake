@@ -13,7 +13,7 @@ if(MANIFEST STREQUAL "corpus")
   configure_file(${CMAKE_CURRENT_LIST_DIR}/corpus.json.in ${manifest} @ONLY)
 endif()
 execute_process(
-  COMMAND ${PROGRAM} check ${manifest} --html ${OUTPUT}/${MANIFEST}.html --junit ${OUTPUT}/${MANIFEST}.xml
+  COMMAND ${PROGRAM} check ${manifest} --root / --html ${OUTPUT}/${MANIFEST}.html --junit ${OUTPUT}/${MANIFEST}.xml
   RESULT_VARIABLE code OUTPUT_VARIABLE out ERROR_VARIABLE err)
 if(NOT code EQUAL 0)
   message(FATAL_ERROR "facet check ${manifest}: exit code ${code}\n${out}${err}see ${OUTPUT}/${MANIFEST}.html")

@@ -212,11 +212,11 @@ TEST_F(EnvironmentCache, WhatIsNoFileIsNotReadOrReplaced) {
   fs::remove(entry);
   ASSERT_EQ(mkfifo(entry.c_str(), 0600), 0);
   EXPECT_EQ(Find(), nullptr);  // and does not wait for a writer
-  EXPECT_NE(Open()->Keep(kOptions, *map).find("it is no file"), std::string::npos);  // nor for a reader
+  EXPECT_NE(Open()->Keep(kOptions, *map).find("it is no plain file"), std::string::npos);  // nor for a reader
   fs::remove(entry);
   const fs::path other = folder_ / "other";
   fs::create_symlink(other, entry);
-  EXPECT_NE(Open()->Keep(kOptions, *map).find("it is no file"), std::string::npos);
+  EXPECT_NE(Open()->Keep(kOptions, *map).find("it is no plain file"), std::string::npos);
   EXPECT_FALSE(fs::exists(other));
 }
 

@@ -8,7 +8,6 @@
 #include "facet/error.h"
 #include "facet/load.h"
 #include "render/hand_built.h"
-#include "render/memory_budget.h"
 
 namespace facet {
 namespace {
@@ -92,29 +91,6 @@ TEST(Bands, AReceiverCanStop) {
 }
 
 // --- The limit -------------------------------------------------------------------------------------------------------
-
-TEST(BytesText, HasOneDigitAfterThePoint) {
-  EXPECT_EQ(BytesText(1536), "1.5 KiB");
-  EXPECT_EQ(BytesText(512.0 * 1048576), "512.0 MiB");
-  EXPECT_EQ(BytesText(16e12), "14901.2 GiB");
-}
-
-TEST(MemoryBudget, CountsTogetherAndNamesAll) {
-  MemoryBudget none(0);
-  none.Add(std::uint64_t{1} << 60, "film", "less");
-  MemoryBudget budget(1 << 20);
-  budget.Add(1 << 19, "film", "smaller");
-  budget.Add(1 << 19, "geometry", "fewer");
-  try {
-    budget.Add(1, "textures", "scale them down");
-    ADD_FAILURE() << "accepted";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ErrorCode::OutOfMemory);
-    EXPECT_STREQ(error.what(),
-                 "this needs 0.0 KiB for textures, 512.0 KiB for geometry, 512.0 KiB for film, and the memory limit is "
-                 "1.0 MiB; scale them down, or raise the limit");
-  }
-}
 
 // What Render() says; empty where it draws.
 std::string Refusal(const Scene& scene, const RenderSettings& settings) {

@@ -55,19 +55,6 @@ TEST(Camera, FramesBoxesTightlyInEveryAspect) {
   for (const glm::dvec3& size : sizes) {
     const PosedScene posed = PosedBox(glm::dvec3(7, -3, 2) - size / 2.0, glm::dvec3(7, -3, 2) + size / 2.0);
     for (const auto& [width, height] : {std::pair(100, 100), std::pair(400, 100), std::pair(100, 300)}) {
-      for (const double phi : {0.0, 0.5, 1.5, kTestPi / 2, 3.0}) {
-        for (const double theta : {0.0, 1.0, 4.0}) {
-          const ResolvedCamera camera = ResolveCamera(OrbitCamera{theta, phi, {}, {}, {}}, {}, posed, width, height);
-          ExpectRigid(camera.world_from_camera);
-          EXPECT_EQ(*camera.lens.aspect, double(width) / height);
-          const glm::dvec2 extent = Extent(camera, posed.bounds);
-          EXPECT_LE(std::max(extent.x, extent.y), 1.0 / 1.0499);
-          const bool end_on = size.x == 0 && std::sin(phi) == 0;  // a line of which only a point is seen
-          if (!end_on) {
-            EXPECT_GT(std::max(extent.x, extent.y), 1.0 / 1.0501);
-          }
-        }
-      }
       const ResolvedCamera automatic = ResolveCamera(AutoCamera{}, {}, posed, width, height);
       const glm::dvec2 extent = Extent(automatic, posed.bounds);
       EXPECT_LE(std::max(extent.x, extent.y), 1.0 / 1.0499);
@@ -75,6 +62,68 @@ TEST(Camera, FramesBoxesTightlyInEveryAspect) {
       EXPECT_GT(automatic.world_from_camera[3].z, 2.0) << "from the front";
     }
   }
+}
+
+double DistanceFrom(const ResolvedCamera& camera, const glm::dvec3& target) {
+  return glm::length(glm::dvec3(camera.world_from_camera[3]) - target);
+}
+
+// Its ball just fits: the margin is 5 % of the ball's radius on the narrower side, from wherever it is seen.
+TEST(Camera, AnOrbitWithoutRadiusKeepsItsDistance) {
+  const glm::dvec3 centre(7, -3, 2), half(3, 1, 0.5);
+  const PosedScene posed = PosedBox(centre - half, centre + half);
+  for (const auto& [width, height] : {std::pair(100, 100), std::pair(400, 100), std::pair(100, 300)}) {
+    const double tan_y = std::tan(0.5 * 45.0 * kTestPi / 180.0), narrow = tan_y * std::min(1.0, double(width) / height);
+    const double expected = 1.05 * glm::length(half) / std::sin(std::atan(narrow));
+    for (const double phi : {0.0, 0.5, 1.5, kTestPi / 2, 3.0}) {
+      for (const double theta : {0.0, 1.0, 4.0}) {
+        const ResolvedCamera camera = ResolveCamera(OrbitCamera{theta, phi, {}, {}, {}}, {}, posed, width, height);
+        ExpectRigid(camera.world_from_camera);
+        EXPECT_NEAR(DistanceFrom(camera, centre), expected, 1e-12 * expected);
+        EXPECT_NEAR(camera.target_distance, expected, 1e-12 * expected) << "as far as it says";
+        EXPECT_EQ(*camera.lens.aspect, double(width) / height);
+        const glm::dvec2 extent = Extent(camera, posed.bounds);
+        EXPECT_LE(std::max(extent.x, extent.y), 1.0 / 1.04);
+      }
+    }
+  }
+}
+
+// A square that moves from the origin to x = 10 and back to x = 4.
+Scene MovingSquare() {
+  Primitive square;
+  square.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+  square.indices = {0, 1, 2, 0, 2, 3};
+  Scene scene = SceneOf(square);
+  Animation animation;
+  animation.channels.push_back(
+      {0, AnimationPath::Translation, Interpolation::Linear, {1.0f, 2.0f, 3.0f}, {0, 0, 0, 10, 0, 0, 4, 0, 0}});
+  scene.animations.push_back(animation);
+  return scene;
+}
+
+TEST(Camera, AnOrbitWithoutRadiusKeepsItsDistanceOverTime) {
+  const Scene scene = MovingSquare();
+  std::vector<glm::dmat4> places;
+  for (const double time : {0.0, 1.0, 1.3, 2.0, 2.9, 7.0}) {
+    PoseSettings pose;
+    pose.animation = 0;
+    pose.time = time;
+    const PosedScene posed = Pose(scene, pose);
+    places.push_back(ResolveCamera(OrbitCamera{0.3, 1.2, {}, {}, {}}, scene, posed, 64, 64).world_from_camera);
+    EXPECT_EQ(places.back(), places.front()) << time;
+    // All of the way fits: the ball is around (5, 0, 0), and reaches the corners at (11, 1, 0).
+    KnownBall known;
+    const glm::dvec3 target(1, 0, 0);
+    const ResolvedCamera about = ResolveCamera(OrbitCamera{0.3, 1.2, {}, target, {}}, scene, posed, 64, 64, &known);
+    EXPECT_NEAR(known.ball->radius, std::sqrt(101.0), 1e-12);
+    EXPECT_EQ(ResolveCamera(OrbitCamera{0.3, 1.2, {}, target, {}}, scene, posed, 64, 64, &known).world_from_camera,
+              about.world_from_camera);
+  }
+  const glm::dvec3 eye(places[0][3]), back(places[0][2]);
+  const double distance = glm::dot(eye - glm::dvec3(5, 0, 0), back);
+  EXPECT_LT(Distance(eye - distance * back, glm::dvec3(5, 0, 0)), 1e-12) << "looks at the middle of all poses";
+  EXPECT_NEAR(distance, 1.05 * std::sqrt(37.0) / std::sin(kTestPi / 8.0), 1e-9);
 }
 
 TEST(Camera, OrbitsByTheFormula) {
