@@ -85,6 +85,14 @@ TEST_F(ManifestFile, WhatIsNoManifestIsRefused) {
   EXPECT_TRUE(Begins(Refusal(R"({"version": 2, "entries": []})"), "goldens.json: /version: "));
   EXPECT_EQ(Refusal(R"({"version": 1})"), "goldens.json: has no 'entries'");
   EXPECT_EQ(Refusal(R"({"version": 1, "entries": {}})"), "goldens.json: /entries: is no list");
+  EXPECT_EQ(Refusal(R"({"version": 1, "entries": []})"),
+            "goldens.json: /entries: is empty: there is nothing to check; list a scene at least");
+  // What would overflow the stack, or take time that grows with a square.
+  EXPECT_EQ(Refusal(R"({"version": 1, "entries": )" + std::string(20000, '[') + std::string(20000, ']') + "}"),
+            "goldens.json: JSON is nested deeper than 128 levels");
+  std::string keys;
+  for (int i = 0; i < 60000; ++i) keys += R"(, "key )" + std::to_string(i) + R"(": 1)";
+  EXPECT_EQ(Refusal(R"({"version": 1)" + keys + "}"), "goldens.json: an object has more than 1000 keys");
   EXPECT_EQ(Refusal(R"({"version": 1, "settings": 3, "entries": []})"), "goldens.json: /settings: is no object");
   EXPECT_TRUE(Begins(Refusal(R"({"version": 1, "settings": {"size": "big"}, "entries": []})"),
                      "goldens.json: /settings/size: 'big' is not a size; give WIDTHxHEIGHT"));

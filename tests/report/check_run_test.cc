@@ -311,6 +311,63 @@ TEST_F(CheckFile, AFailedWriteLeavesTheEntryAsItWas) {
   EXPECT_EQ(ReadJson()["entries"][0], before["entries"][0]);
 }
 
+// The old picture and the new one are shown, and their sizes said.
+TEST_F(CheckFile, AnotherSizeIsAFailureThatShowsBothPictures) {
+  Manifest(Entry("a", R"("expect": {"picture": "a.png"})"));
+  ASSERT_EQ(Update().verdict, Verdict::Updated);
+  Json json = ReadJson();
+  json["settings"]["size"] = "24x32";
+  WriteJson(json);
+  CheckOptions options;
+  options.pictures = true;
+  const CheckedEntry entry = Only(options);
+  EXPECT_EQ(entry.verdict, Verdict::Failed);
+  EXPECT_NE(entry.message.find("the golden picture is 48x32, the rendering 24x32"), std::string::npos) << entry.message;
+  EXPECT_EQ(DecodeImage(entry.expected, "expected").width, 48);
+  EXPECT_EQ(DecodeImage(entry.actual, "actual").width, 24);
+  EXPECT_EQ(Update().verdict, Verdict::Updated);
+  EXPECT_EQ(Only().verdict, Verdict::Passed);
+}
+
+// A texture that is not there does not fail by itself; it is told, and with `strict` it does.
+TEST_F(CheckFile, WarningsAreToldAndStrictMakesThemFailures) {
+  std::string scene = TinyScene(R"("images": [{"uri": "none.png"}], "textures": [{"source": 0}],)");
+  const std::string red = R"("baseColorFactor": [1, 0, 0, 1])";
+  Write("tiny.gltf", scene.insert(scene.find(red), R"("baseColorTexture": {"index": 0}, )"));
+  Manifest(Entry("a"));
+  ASSERT_EQ(Update().verdict, Verdict::Updated);
+  CheckedEntry entry = Only();
+  EXPECT_EQ(entry.verdict, Verdict::Passed);
+  ASSERT_FALSE(entry.warnings.empty());
+  EXPECT_NE(entry.warnings[0].find("none.png"), std::string::npos);
+  const CheckReport report = CheckManifest(folder_ / "goldens.json");
+  EXPECT_NE(CheckHtml(report).find("none.png"), std::string::npos);
+  EXPECT_NE(JUnitXml(report).find("<system-out>warning: "), std::string::npos);
+  EXPECT_NE(JUnitXml(report).find("none.png"), std::string::npos);
+  CheckOptions options;
+  options.strict = true;
+  entry = Only(options);
+  EXPECT_EQ(entry.verdict, Verdict::Failed);
+  EXPECT_NE(entry.message.find("none.png"), std::string::npos) << entry.message;
+}
+
+// Two entries that do not fit beside one another fit after one another.
+TEST_F(CheckFile, EntriesShareTheMemoryAndWhatDoesNotFitRunsAlone) {
+  Manifest(Entry("a", R"("settings": {"size": 512})") + "," + Entry("b", R"("settings": {"size": 512})"));
+  CheckOptions options;
+  options.update = true;
+  options.threads = 2;
+  options.load.memory_limit = std::uint64_t{6} << 20;  // a film has 4 MiB
+  CheckReport report = CheckManifest(folder_ / "goldens.json", options);
+  EXPECT_EQ(report.Count(Verdict::Updated), 2u) << report.entries[0].message;
+  options.load.memory_limit = std::uint64_t{3} << 20;
+  report = CheckManifest(folder_ / "goldens.json", options);
+  EXPECT_EQ(report.Count(Verdict::Error), 2u);
+  EXPECT_NE(report.entries[1].message.find("4.0 MiB for a film of 512 x 512 pixels, and the memory limit is 3.0 MiB"),
+            std::string::npos)
+      << report.entries[1].message;
+}
+
 TEST_F(CheckFile, OnlySelectsByRegularExpression) {
   Manifest(Entry("helmet") + "," + Entry("helmet back") + "," + Entry("car"));
   const auto names = [&](const std::string& only) {

@@ -303,6 +303,21 @@ TEST(ImageDifferenceErrors, NamesBothSizes) {
   }
 }
 
+TEST(ImageDifferenceErrors, KeepsTheMemoryLimit) {
+  const Image a = Filled<std::uint8_t>(100, 100, {1}), b = Filled<std::uint8_t>(100, 100, {2});
+  CompareOptions options;
+  options.memory_limit = 100 * 100 * 64;
+  EXPECT_FALSE(CompareImages(a, b, options).equal);
+  --options.memory_limit;
+  try {
+    CompareImages(a, b, options);
+    ADD_FAILURE() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::OutOfMemory);
+    EXPECT_NE(error.message().find("for comparing images of 100x100 pixels"), std::string::npos) << error.what();
+  }
+}
+
 TEST(ImageDifferenceErrors, RefusesWhatIsNoPictureAndOptionsOutOfRange) {
   const Image a = Filled<std::uint8_t>(3, 3, {1});
   Image cut = a;
