@@ -36,7 +36,7 @@ struct OrbitCamera {
   std::optional<double> yfov;                    // radians; 45 degrees if none
 };
 
-// A camera of the scene, by index into Scene::cameras, placed by the first visible node that holds it.
+// A camera of the scene, by index into Scene::cameras, placed by the first node of the scene that holds it.
 struct SceneCamera {
   int camera = 0;
 };

@@ -154,7 +154,9 @@ void DecodeTextures(const Scene& scene, const std::vector<bool>& material_visibl
     const int image = plan.textures[t].image;
     if (std::find(warned.begin(), warned.end(), image) != warned.end()) continue;
     warned.push_back(image);
-    stats.warnings.push_back(entry.problem + " (drawn without this texture)");
+    const std::string warning = entry.problem + " (drawn without this texture)";
+    const bool is_said = std::find(stats.warnings.begin(), stats.warnings.end(), warning) != stats.warnings.end();
+    if (!is_said) stats.warnings.push_back(warning);  // images of the file may name one picture
     if (std::find(images.begin(), images.end(), image) != images.end()) --stats.images_decoded;
   }
 
