@@ -186,7 +186,7 @@ struct RenderStats {
   std::string target;                    // instruction set: SCALAR, SSE4, AVX2 or AVX3
   int threads = 0;
   std::vector<std::string> left_out;     // what the frame did without, one line each: "WHAT: WHY"
-  std::vector<std::string> warnings;     // images that could not be decoded, and the like
+  std::vector<std::string> warnings;     // images that could not be decoded, why nothing is visible or lit
 };
 
 // Renders. Safe to call from several threads at once. Throws Error: InvalidUsage for settings out of range,

@@ -77,7 +77,8 @@ void SetShape(const std::string& name, const Place& place, AccessorInfo& info) {
   };
   constexpr Shape kShapes[] = {{"SCALAR", 1, 1}, {"VEC2", 1, 2}, {"VEC3", 1, 3}, {"VEC4", 1, 4},
                                {"MAT2", 2, 2},   {"MAT3", 3, 3}, {"MAT4", 4, 4}};
-  const auto* const shape = std::find_if(std::begin(kShapes), std::end(kShapes), [&](const Shape& s) { return name == s.name; });
+  const auto* const shape =
+      std::find_if(std::begin(kShapes), std::end(kShapes), [&](const Shape& s) { return name == s.name; });
   if (shape == std::end(kShapes)) Fail(place, "is not a type that glTF knows");
   info.columns = shape->columns;
   info.rows = shape->rows;
@@ -112,7 +113,8 @@ AccessorInfo AccessorReader::Describe(int index) {
   info.offset = SizeAt(object, "byteOffset", place).value_or(0);
   info.count = RequireSize(object, "count", place);
   RequireSize(object, "componentType", place);
-  info.type = static_cast<ComponentType>(*OneOfAt(object, "componentType", {5120, 5121, 5122, 5123, 5125, 5126}, place));
+  info.type =
+      static_cast<ComponentType>(*OneOfAt(object, "componentType", {5120, 5121, 5122, 5123, 5125, 5126}, place));
   info.normalized = BoolAt(object, "normalized", place).value_or(false) && info.type != ComponentType::F32;
   SetShape(RequireString(object, "type", place), Place(place, "type"), info);
   return info;
@@ -143,8 +145,8 @@ AccessorView AccessorReader::View(int index) {
   if (info.view >= 0 && !is_placeholder) {
     const std::size_t stride = buffers_.Describe(info.view).stride;
     if (stride != 0 && stride < info.size) {
-      Fail(place, "its elements of " + std::to_string(info.size) + " bytes overlap: byteStride is " +
-                      std::to_string(stride));
+      Fail(place,
+           "its elements of " + std::to_string(info.size) + " bytes overlap: byteStride is " + std::to_string(stride));
     }
     if (stride != 0) view.stride = stride;
     view.bytes = Run(info.view, info.offset, view.count, info.size, view.stride, place);
@@ -168,12 +170,12 @@ void AccessorReader::ReadSparse(const Json& sparse, std::size_t element_size, co
   RequireSize(indices, "componentType", indices_place);
   view.sparse_type = static_cast<ComponentType>(*OneOfAt(indices, "componentType", {5121, 5123, 5125}, indices_place));
   const std::size_t index_size = SizeOfComponent(view.sparse_type);
-  view.sparse_indices = Run(RequireIndex(indices, "bufferView", views, "bufferViews", indices_place),
-                            SizeAt(indices, "byteOffset", indices_place).value_or(0), count, index_size, index_size,
-                            indices_place);
-  view.sparse_values = Run(RequireIndex(values, "bufferView", views, "bufferViews", values_place),
-                           SizeAt(values, "byteOffset", values_place).value_or(0), count, element_size, element_size,
-                           values_place);
+  view.sparse_indices =
+      Run(RequireIndex(indices, "bufferView", views, "bufferViews", indices_place),
+          SizeAt(indices, "byteOffset", indices_place).value_or(0), count, index_size, index_size, indices_place);
+  view.sparse_values =
+      Run(RequireIndex(values, "bufferView", views, "bufferViews", values_place),
+          SizeAt(values, "byteOffset", values_place).value_or(0), count, element_size, element_size, values_place);
   for (std::size_t k = 0; k < count; ++k) {
     const std::size_t target = LoadUnsigned(view.sparse_type, view.sparse_indices.data + k * index_size);
     if (target >= view.count) {

@@ -12,12 +12,12 @@ std::size_t TargetCount(const Scene& scene, int mesh) {
   return primitives.empty() ? 0 : primitives.front().targets.size();
 }
 
-// Keeps the keys whose times do not decrease: of two at one time the first ends what comes before, the second begins
-// what comes after.
+// Keeps the keys whose times do not decrease.
 void DropStaleKeys(AnimationChannel& channel, std::size_t numbers_per_key, const Place& place) {
-  std::size_t kept = 0;
+  std::size_t kept = 0, jumps = 0;
   for (std::size_t key = 0; key < channel.times.size(); ++key) {
     if (kept > 0 && channel.times[key] < channel.times[kept - 1]) continue;
+    jumps += kept > 0 && channel.times[key] == channel.times[kept - 1];
     if (kept != key) {
       channel.times[kept] = channel.times[key];
       for (std::size_t i = 0; i < numbers_per_key; ++i) {
@@ -26,6 +26,7 @@ void DropStaleKeys(AnimationChannel& channel, std::size_t numbers_per_key, const
     }
     ++kept;
   }
+  if (jumps) place.Warn(std::to_string(jumps) + " keys have the time of the one before: the values jump there");
   if (kept == channel.times.size()) return;
   place.Warn(std::to_string(channel.times.size() - kept) + " keys were dropped: their times decrease");
   channel.times.resize(kept);
@@ -68,6 +69,7 @@ class AnimationReader {
   Animation Read() {
     Animation animation;
     animation.name = NameOf(object_, place_);
+    if (!Find(object_, "channels")) place_.Warn("\"channels\" is missing");
     const Json* channels = LenientArray(object_, "channels", place_);
     samplers_ = LenientArray(object_, "samplers", place_);
     const Place channels_place(place_, "channels");
@@ -166,8 +168,7 @@ void ReadAnimations(Context& context, AccessorReader& reader, Scene& scene) {
   const Place list_place(context.place, "animations");
   for (std::size_t a = 0; a < context.document.Count("animations"); ++a) {
     const Place place(list_place, a);
-    scene.animations.push_back(
-        AnimationReader(context, reader, scene, context.Object("animations", a), place).Read());
+    scene.animations.push_back(AnimationReader(context, reader, scene, context.Object("animations", a), place).Read());
   }
 }
 

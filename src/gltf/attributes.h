@@ -52,8 +52,8 @@ class AttributeSource {
   const Place& place_;
 };
 
-// The accessors of an object "attributes", or of a morph target, by semantic. An index that names none is an error where
-// `is_needed`(semantic), otherwise the attribute is left out with a warning.
+// The accessors of an object "attributes", or of a morph target, by semantic. An index that names none is an error
+// where `is_needed`(semantic), otherwise the attribute is left out with a warning.
 std::map<std::string, int> ReadAttributeList(Context& context, const Json& object, const Place& place,
                                              const std::function<bool(const std::string&)>& is_needed);
 

@@ -95,8 +95,8 @@ const Bytes& BufferStore::Whole(std::size_t index) {
     throw;
   }
   if (buffer.declared_length && buffer.bytes->size < *buffer.declared_length) {
-    const std::string what = "has " + std::to_string(buffer.bytes->size) + " bytes and declares " +
-                             std::to_string(*buffer.declared_length);
+    const std::string what =
+        "has " + std::to_string(buffer.bytes->size) + " bytes and declares " + std::to_string(*buffer.declared_length);
     buffer.shortage = "buffers[" + std::to_string(index) + "] " + what + ": fetch the file again";
     const Place list_place(context_.place, "buffers");
     Place(list_place, index).Warn(what);
@@ -183,8 +183,12 @@ void BufferStore::CheckUnused() {
     if (buffers_[i].bytes || buffers_[i].error) continue;
     const Place place(buffers_place, i);
     const auto uri = LenientString(context_.Object("buffers", i), "uri", place);
-    if (!uri || IsDataUri(*uri)) continue;
+    if (!uri) continue;
     const Place uri_place(place, "uri");
+    if (IsDataUri(*uri)) {
+      if (!DecodeDataUri(*uri)) uri_place.Warn("is a malformed data URI, and nothing reads it");
+      continue;
+    }
     const auto path = ResolveRelative(context_.path.parent_path(), *uri, uri_place);
     std::error_code ignored;
     if (path && std::filesystem::is_regular_file(*path, ignored)) continue;

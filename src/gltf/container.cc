@@ -100,15 +100,17 @@ class GlbReader {
     if (ReadU32(file_.data + kHeaderSize + 4) != kJsonChunk) Fail(place_, "the first GLB chunk is not JSON");
   }
 
-  static bool IsBin(std::string_view text, std::size_t at) { return text.substr(std::min(at + 4, text.size()), 4) == kBin; }
+  static bool IsBin(std::string_view text, std::size_t at) {
+    return text.substr(std::min(at + 4, text.size()), 4) == kBin;
+  }
 
   // The size of the JSON chunk that `rest` begins with: what its header says where that can be, otherwise where the
   // text itself ends. With a warning where these differ.
   std::size_t JsonSize(std::string_view rest) {
     const std::size_t length = ReadU32(file_.data + kHeaderSize);
     is_cut_ = length > rest.size();
-    const bool is_likely = length <= rest.size() && EndsAsJson(rest.substr(0, length)) &&
-                           (length == rest.size() || IsBin(rest, length));
+    const bool is_likely =
+        length <= rest.size() && EndsAsJson(rest.substr(0, length)) && (length == rest.size() || IsBin(rest, length));
     if (is_likely) return length;
     const std::optional<std::size_t> end = EndOfJson(rest);
     if (!end && length <= rest.size()) return length;  // whoever parses it says what is wrong

@@ -49,8 +49,7 @@ struct Context {
     const std::size_t bound = unfolded < options.max_geometry_bytes ? unfolded : options.max_geometry_bytes;
     if (geometry_bytes > bound || (size_each != 0 && count > (bound - geometry_bytes) / size_each)) {
       Fail(where, "the geometry needs more memory than the limit of " + BytesText(double(bound)),
-           bound == unfolded ? "so small a file should not unfold so far" : "raise the limit",
-           ErrorCode::OutOfMemory);
+           bound == unfolded ? "so small a file should not unfold so far" : "raise the limit", ErrorCode::OutOfMemory);
     }
     geometry_bytes += count * size_each;
   }

@@ -5,8 +5,9 @@
 namespace facet::gltf {
 namespace {
 
-constexpr const char* kLists[] = {"accessors", "animations", "bufferViews", "buffers", "cameras",  "images", "materials",
-                                  "meshes",    "nodes",      "samplers",    "scenes",  "skins",    "textures"};
+constexpr const char* kLists[] = {"accessors", "animations", "bufferViews", "buffers", "cameras",
+                                  "images",    "materials",  "meshes",      "nodes",   "samplers",
+                                  "scenes",    "skins",      "textures"};
 
 [[noreturn]] void FailVersion(const Place& place, const std::string& version) {
   Fail(place, "glTF " + version + " is not supported", "convert it to glTF 2.0", ErrorCode::Unsupported);

@@ -99,8 +99,8 @@ DracoMesh DecodeDraco(Context& context, BufferStore& buffers, AccessorReader& re
                       const std::function<bool(const std::string&)>& is_needed, std::map<std::string, int>& attributes,
                       const Place& place) {
   const Json& packed_attributes = RequireObject(extension, "attributes", place);
-  const Bytes& packed = buffers.Read(
-      RequireIndex(extension, "bufferView", context.document.Count("bufferViews"), "bufferViews", place));
+  const Bytes& packed =
+      buffers.Read(RequireIndex(extension, "bufferView", context.document.Count("bufferViews"), "bufferViews", place));
   CheckClaims(packed, place);
 
   draco::DecoderBuffer buffer;

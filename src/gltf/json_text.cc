@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
+#include <limits>
 #include <string>
 
 #include "gltf/extensions.h"
@@ -34,7 +35,9 @@ void CheckDepth(std::string_view text, const Place& place) {
 // How many bytes the UTF-8 character at `at` has; 0 where there is none.
 // Source: The Unicode Standard 15.0 (2022), table 3-7, "Well-Formed UTF-8 Byte Sequences".
 std::size_t CharacterSize(std::string_view text, std::size_t at) {
-  const auto byte = [&](std::size_t i) -> unsigned { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0; };
+  const auto byte = [&](std::size_t i) -> unsigned {
+    return i < text.size() ? static_cast<unsigned char>(text[i]) : 0;
+  };
   const unsigned lead = byte(at), second = byte(at + 1);
   const auto continues = [&](std::size_t i) { return (byte(i) & 0xC0) == 0x80; };
   if (lead < 0x80) return 1;
@@ -71,18 +74,25 @@ std::string WithValidUtf8(std::string_view text) {
   return valid;
 }
 
-// Says which strings had bytes replaced.
-bool WarnOfReplaced(const Json& value, const Place& place) {
-  bool any = false;
-  if (value.is_string()) {
-    any = value.get_ref<const std::string&>().find(kReplacement) != std::string::npos;
-    if (any) place.Warn("is not UTF-8; what cannot be read of it became U+FFFD");
-  } else if (value.is_object()) {
-    for (const auto& item : value.items()) any |= WarnOfReplaced(item.value(), Place(place, item.key()));
+// Warns of `what` at each value for which is_it(value). True if there is any.
+template <class IsIt>
+bool WarnWhere(const IsIt& is_it, const std::string& what, const Json& value, const Place& place) {
+  bool any = is_it(value);
+  if (any) place.Warn(what);
+  if (value.is_object()) {
+    for (const auto& item : value.items()) any |= WarnWhere(is_it, what, item.value(), Place(place, item.key()));
   } else if (value.is_array()) {
-    for (std::size_t i = 0; i < value.size(); ++i) any |= WarnOfReplaced(value[i], Place(place, i));
+    for (std::size_t i = 0; i < value.size(); ++i) any |= WarnWhere(is_it, what, value[i], Place(place, i));
   }
   return any;
+}
+
+bool HasReplacement(const Json& value) {
+  return value.is_string() && value.get_ref<const std::string&>().find(kReplacement) != std::string::npos;
+}
+
+bool IsLargest(const Json& value) {
+  return value.is_number_float() && std::fabs(value.get<double>()) == std::numeric_limits<double>::max();
 }
 
 // `text` is JSON but for numbers that the parser calls too large.
@@ -146,6 +156,7 @@ void Normalise(Json& value, const Place& place, bool are_extensions = false) {
 
 [[noreturn]] void FailToParse(const Json::exception& error, const Place& place) {
   std::string message = error.what();
+  if (message.starts_with('[')) message.erase(0, std::min(message.find(']'), message.size() - 2) + 2);  // its number
   constexpr std::size_t kEnough = 200;  // the parser quotes the offending text, which may be long
   if (message.size() > kEnough) message = message.substr(0, kEnough) + "...";
   for (char& c : message) {
@@ -162,6 +173,8 @@ Json ParseJson(std::string_view text, const Place& place) {
   CheckDepth(text, place);
   // GLB pads the chunk with spaces, and some exporters with zeros.
   while (!text.empty() && text.back() == '\0') text.remove_suffix(1);
+  constexpr const char* kNotUtf8 = "is not UTF-8; what cannot be read of it became U+FFFD";
+  constexpr const char* kTooLarge = "is beyond the range of numbers; the largest is read";
   std::string valid, finite;
   const std::size_t bad_byte = FirstBadByte(text);
   if (bad_byte < text.size()) {
@@ -175,13 +188,13 @@ Json ParseJson(std::string_view text, const Place& place) {
     } catch (const Json::out_of_range&) {
       finite = WithFiniteNumbers(text);
       root = Json::parse(finite.begin(), finite.end());
-      place.Warn("numbers beyond 1.8e308 were replaced by the largest there is");
     }
   } catch (const Json::exception& error) {
     FailToParse(error, place);
   }
   Normalise(root, place);
-  if (bad_byte < valid.size() && !WarnOfReplaced(root, place)) {
+  if (!finite.empty()) WarnWhere(IsLargest, kTooLarge, root, place);
+  if (!valid.empty() && !WarnWhere(HasReplacement, kNotUtf8, root, place)) {
     place.Warn("bytes that are not UTF-8 were replaced, from byte " + std::to_string(bad_byte) + " of the JSON on");
   }
   return root;

@@ -68,8 +68,9 @@ void ReadMeshes(Context& context, BufferStore& buffers, AccessorReader& reader, 
     }
     mesh.weights = LenientFloats(object, "weights", place);
     if (!mesh.weights.empty() && mesh.weights.size() != most_targets) {
-      Place(place, "weights").Warn("has " + std::to_string(mesh.weights.size()) + " numbers for " +
-                                   std::to_string(most_targets) + " morph targets");
+      Place(place, "weights")
+          .Warn("has " + std::to_string(mesh.weights.size()) + " numbers for " + std::to_string(most_targets) +
+                " morph targets");
     }
     mesh.weights.resize(most_targets, 0.0f);
     scene.meshes.push_back(std::move(mesh));

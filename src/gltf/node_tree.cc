@@ -26,7 +26,8 @@ class TreeReader {
     scene_.nodes.resize(problems_.size());
     for (std::size_t i = 0; i < scene_.nodes.size(); ++i) ReadNode(i);
     for (std::size_t i = 0; i < scene_problems_.size(); ++i) ReadScene(i);
-    scene_.default_scene = LenientIndex(context_.document.root, "scene", scene_.scenes.size(), "scenes", context_.place);
+    scene_.default_scene =
+        LenientIndex(context_.document.root, "scene", scene_.scenes.size(), "scenes", context_.place);
     const std::vector<bool> shown = FindShown();
     FindParents(shown);
     CutCycles();
@@ -37,9 +38,7 @@ class TreeReader {
 
  private:
   // The scene that a picture shows without being asked for another; -1: all nodes.
-  int ShownScene() const {
-    return scene_.default_scene >= 0 ? scene_.default_scene : scene_.scenes.empty() ? -1 : 0;
-  }
+  int ShownScene() const { return scene_.default_scene >= 0 ? scene_.default_scene : scene_.scenes.empty() ? -1 : 0; }
 
   // Indices of nodes, without those that are none (of which the last is kept as `problem`) and without repetitions.
   Indices ReadList(const Json& object, const char* key, const Place& place, std::vector<std::size_t>& marks,

@@ -185,8 +185,9 @@ class NodeReader {
     if (node.weights.empty()) return;
     const std::size_t targets = node.mesh >= 0 ? TargetCount(scene_.meshes[static_cast<std::size_t>(node.mesh)]) : 0;
     if (node.weights.size() == targets) return;
-    Place(place, "weights").Warn("has " + std::to_string(node.weights.size()) + " numbers for " +
-                                 std::to_string(targets) + " morph targets");
+    Place(place, "weights")
+        .Warn("has " + std::to_string(node.weights.size()) + " numbers for " + std::to_string(targets) +
+              " morph targets");
     node.weights.resize(targets, 0.0f);
   }
 

@@ -70,7 +70,7 @@ void TrimList(Primitive& primitive, const Place& place) {
   const std::size_t count = primitive.indices.empty() ? primitive.positions.size() : primitive.indices.size();
   if (count % each == 0) return;
   place.Warn("ignored: the last " + std::to_string(count % each) + " of " + std::to_string(count) +
-                          " vertices, which make no " + (each == 2 ? "line" : "triangle"));
+             " vertices, which make no " + (each == 2 ? "line" : "triangle"));
   if (!primitive.indices.empty()) primitive.indices.resize(count - count % each);
 }
 
@@ -185,9 +185,8 @@ void PrimitiveReader::ReadJoints(AttributeSource& source, const Place& place) {
     } else if (source.Has(joints)) {
       std::vector<glm::u16vec4> joint_list;
       std::vector<glm::vec4> weight_list;
-      const bool is_read =
-          Optionally(joints, use_.skinned, place, [&] { joint_list = source.Joints(joints); }) &&
-          Optionally(weights, use_.skinned, place, [&] { weight_list = source.Weights(weights); });
+      const bool is_read = Optionally(joints, use_.skinned, place, [&] { joint_list = source.Joints(joints); }) &&
+                           Optionally(weights, use_.skinned, place, [&] { weight_list = source.Weights(weights); });
       if (!is_read) continue;
       out_.joints.push_back(std::move(joint_list));
       out_.weights.push_back(std::move(weight_list));
@@ -273,8 +272,9 @@ std::optional<DracoMesh> PrimitiveReader::TryDraco() {
   for (const auto& [semantic, accessor] : attributes_) has_plain = has_plain && is_backed(accessor);
   std::optional<DracoMesh> mesh;
   context_.Try(!has_plain, draco_place, "the uncompressed data is used", [&] {
-    mesh = DecodeDraco(context_, buffers_, reader_, *extension,
-                       [&](const std::string& semantic) { return IsNeeded(semantic); }, attributes_, draco_place);
+    mesh = DecodeDraco(
+        context_, buffers_, reader_, *extension, [&](const std::string& semantic) { return IsNeeded(semantic); },
+        attributes_, draco_place);
   });
   return mesh;
 }

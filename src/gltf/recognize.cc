@@ -27,7 +27,10 @@ constexpr Signature kSignatures[] = {
     {0, "version https://git-lfs.github.com/spec/"sv, "a Git LFS pointer in place of the file", "run \"git lfs pull\""},
     {0, "\x1F\x8B"sv, "compressed by gzip", "unpack it first: gunzip"},
     {0, "BZh"sv, "compressed by bzip2", "unpack it first: bunzip2"},
-    {0, "\xFD" "7zXZ\0"sv, "compressed by xz", "unpack it first: unxz"},
+    {0,
+     "\xFD"
+     "7zXZ\0"sv,
+     "compressed by xz", "unpack it first: unxz"},
     {0, "\x28\xB5\x2F\xFD"sv, "compressed by Zstandard", "unpack it first: unzstd"},
     {0, "\x04\x22\x4D\x18"sv, "compressed by LZ4", "unpack it first: unlz4"},
     {0, "7z\xBC\xAF\x27\x1C"sv, "a 7z archive", kUnpack},
@@ -90,7 +93,10 @@ constexpr Signature kSignatures[] = {
     {0, "\xFE\xFF"sv, "text in UTF-16", "save it as UTF-8"},
     {0, "{\0"sv, "text in UTF-16", "save it as UTF-8"},
     {0, "\0{"sv, "text in UTF-16", "save it as UTF-8"},
-    {0, "\x7F" "ELF"sv, "a program", nullptr},
+    {0,
+     "\x7F"
+     "ELF"sv,
+     "a program", nullptr},
     {0, "MZ"sv, "a program", nullptr},
 };
 

@@ -12,8 +12,7 @@ void ReadSkin(Context& context, AccessorReader& reader, const Json& object, Skin
   for (std::size_t k = 0; k < joints.size(); ++k) {
     skin.joints.push_back(AsIndex(joints[k], context.document.Count("nodes"), "nodes", Place(joints_place, k)));
   }
-  const int accessor =
-      IndexAt(object, "inverseBindMatrices", context.document.Count("accessors"), "accessors", place);
+  const int accessor = IndexAt(object, "inverseBindMatrices", context.document.Count("accessors"), "accessors", place);
   if (accessor < 0) return;
   const Place matrices_place(place, "inverseBindMatrices");
   const AccessorView view = reader.View(accessor);

@@ -14,10 +14,10 @@ enum MaterialFeature : std::uint32_t {
   kNormalTexture = 1u << 2,
   kOcclusionTexture = 1u << 3,
   kEmissiveTexture = 1u << 4,
-  kEmission = 1u << 5,     // emissive factor and strength are not both zero
-  kLit = 1u << 6,          // not KHR_materials_unlit, nor points and lines without normals
-  kAlphaTest = 1u << 7,    // MASK
-  kAlphaBlend = 1u << 8,   // BLEND
+  kEmission = 1u << 5,    // emissive factor and strength are not both zero
+  kLit = 1u << 6,         // not KHR_materials_unlit, nor points and lines without normals
+  kAlphaTest = 1u << 7,   // MASK
+  kAlphaBlend = 1u << 8,  // BLEND
   kDoubleSided = 1u << 9,
 };
 using MaterialFeatures = std::uint32_t;

@@ -60,8 +60,9 @@ std::string WhyNothingIsVisible(const Scene& scene, const PosedScene& posed, con
   RenderStats unused;
   RunGeometry(view, posed, two_sided, grid, settings.samples, geometry, unused);
   if (unused.triangles_binned > stats.triangles_binned && ReachesTiles(geometry)) {
-    return nothing + "what is in the view turns its back to the camera; look from the other side, or make its "
-                     "materials double-sided";
+    return nothing +
+           "what is in the view turns its back to the camera; look from the other side, or make its "
+           "materials double-sided";
   }
   const std::string outside = WhereOutside(view, posed.bounds);
   if (!outside.empty()) return nothing + outside;

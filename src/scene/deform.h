@@ -34,9 +34,9 @@ JointMatrices PlaceJoints(const Skin& skin, const std::vector<glm::dmat4>& world
 
 // Skins positions, normals and tangents of `primitive` by the joints and weights of `influences`, which has as many
 // vertices. Weights are divided by their sum; those not above zero have no influence, and a vertex that has no other
-// follows the joint of its first slot. Normals go with the blended matrix's inverse transpose, from its cofactors, which
-// exist for singular matrices too.
-// Throws Error(InvalidInput), with `where`, if a joint with influence is not one of the skin's.
+// follows the joint of its first slot. Normals go with the blended matrix's inverse transpose, from its cofactors,
+// which exist for singular matrices too. Throws Error(InvalidInput), with `where`, if a joint with influence is not one
+// of the skin's.
 void ApplySkin(const JointMatrices& matrices, const Primitive& influences, const std::string& where,
                Primitive& primitive);
 

@@ -319,7 +319,9 @@ std::vector<glm::vec2> Turned(const std::vector<glm::vec2>& uvs, const TextureRe
   return turned;
 }
 
-bool TurnsOrMirrors(const TextureRef& map) { return map.rotation != 0.0f || !(map.scale.x > 0.0f && map.scale.y > 0.0f); }
+bool TurnsOrMirrors(const TextureRef& map) {
+  return map.rotation != 0.0f || !(map.scale.x > 0.0f && map.scale.y > 0.0f);
+}
 
 }  // namespace
 
@@ -329,7 +331,8 @@ void MakeTangents(const TextureRef& normal_map, Primitive& primitive) {
   const std::size_t set = std::size_t(normal_map.tex_coord);
   if (set < primitive.tex_coords.size() && !primitive.tex_coords[set].empty()) {
     const std::vector<glm::vec2>& uvs = primitive.tex_coords[set];
-    const std::vector<glm::vec2> turned = TurnsOrMirrors(normal_map) ? Turned(uvs, normal_map) : std::vector<glm::vec2>();
+    const std::vector<glm::vec2> turned =
+        TurnsOrMirrors(normal_map) ? Turned(uvs, normal_map) : std::vector<glm::vec2>();
     StoreByVertex(TangentMaker(primitive, turned.empty() ? uvs : turned).Make(), primitive);
     return;
   }

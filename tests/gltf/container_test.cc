@@ -108,8 +108,7 @@ TEST(Container, WrongLengthsAreWarningsThatNameThem) {
       ASSERT_NO_THROW(loaded = LoadBytes(glb));
       EXPECT_TRUE(IsWhole(loaded));
       ASSERT_FALSE(loaded.report.warnings.empty());
-      EXPECT_NE(loaded.report.warnings[0].find(std::to_string(number)), std::string::npos)
-          << loaded.report.warnings[0];
+      EXPECT_NE(loaded.report.warnings[0].find(std::to_string(number)), std::string::npos) << loaded.report.warnings[0];
     };
     EXPECT_TRUE(LoadBytes(GlbOf(parts, json, bin, all)).report.warnings.empty());
     for (const std::size_t off : {1u, 2u, 3u, 4u, 5u, 7u, 8u, 16u}) {
@@ -132,8 +131,9 @@ TEST(Container, WhatIsCutOffOfNeededBytesIsAnErrorThatSaysWhatIsThere) {
   const std::string glb = SmallGlb();
   const std::string message = LoadError(glb.substr(0, glb.size() - 4), ErrorCode::InvalidInput);
   EXPECT_NE(message.find("buffers[0] has 32 bytes and declares 36"), std::string::npos) << message;
-  EXPECT_NE(LoadError("glTF" + U32(2) + U32(99), ErrorCode::InvalidInput).find("ends after 12 bytes, within its headers"),
-            std::string::npos);
+  EXPECT_NE(
+      LoadError("glTF" + U32(2) + U32(99), ErrorCode::InvalidInput).find("ends after 12 bytes, within its headers"),
+      std::string::npos);
 }
 
 TEST(Container, ChunkRules) {

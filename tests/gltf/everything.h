@@ -13,22 +13,22 @@ namespace facet::testing {
 // images: 0 a picture in the file. Animation 0 moves nodes 0 (translation), 4 (rotation) and 3 (weights).
 inline nlohmann::json Everything() {
   FileMaker file;
-  const int position = file.Triangle();                                                           // 0
+  const int position = file.Triangle();  // 0
   file.Attribute("POSITION", position);
-  file.Attribute("NORMAL", file.Floats({0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3", 3));                  // 1
-  file.Attribute("TANGENT", file.Floats({1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1}, "VEC4", 4));        // 2
-  file.Attribute("TEXCOORD_0", file.Floats({0, 0, 1, 0, 0, 1}, "VEC2", 2));                       // 3
-  file.Attribute("TEXCOORD_1", file.Floats({0, 0, 2, 0, 0, 2}, "VEC2", 2));                       // 4
-  file.Attribute("COLOR_0", file.Floats({1, 0, 0, 1, 1, 0, 1, 0, 1}, "VEC3", 3));                 // 5
-  file.Accessor(file.View(Pack<std::uint16_t>({0, 1, 2})), 5123, 3, "SCALAR");                    // 6
+  file.Attribute("NORMAL", file.Floats({0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3", 3));                        // 1
+  file.Attribute("TANGENT", file.Floats({1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1}, "VEC4", 4));              // 2
+  file.Attribute("TEXCOORD_0", file.Floats({0, 0, 1, 0, 0, 1}, "VEC2", 2));                             // 3
+  file.Attribute("TEXCOORD_1", file.Floats({0, 0, 2, 0, 0, 2}, "VEC2", 2));                             // 4
+  file.Attribute("COLOR_0", file.Floats({1, 0, 0, 1, 1, 0, 1, 0, 1}, "VEC3", 3));                       // 5
+  file.Accessor(file.View(Pack<std::uint16_t>({0, 1, 2})), 5123, 3, "SCALAR");                          // 6
   file.Accessor(file.View(Pack<std::uint8_t>({0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0})), 5121, 3, "VEC4");  // 7
-  file.Floats({1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, "VEC4", 4);                                   // 8
-  file.Floats({1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}, "MAT4", 16);                      // 9
-  file.Floats({0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3", 3);                                            // 10: a displacement
-  file.Floats({0, 1}, "SCALAR", 1);                                                               // 11: times
-  file.Floats({0, 0, 0, 1, 1, 1}, "VEC3", 3);                                                     // 12
-  file.Floats({0, 0, 0, 1, 0, 0, 1, 0}, "VEC4", 4);                                               // 13
-  file.Floats({0, 1}, "SCALAR", 1);                                                               // 14: weights
+  file.Floats({1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, "VEC4", 4);                                         // 8
+  file.Floats({1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}, "MAT4", 16);                            // 9
+  file.Floats({0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3", 3);  // 10: a displacement
+  file.Floats({0, 1}, "SCALAR", 1);                     // 11: times
+  file.Floats({0, 0, 0, 1, 1, 1}, "VEC3", 3);           // 12
+  file.Floats({0, 0, 0, 1, 0, 0, 1, 0}, "VEC4", 4);     // 13
+  file.Floats({0, 1}, "SCALAR", 1);                     // 14: weights
   const int sparse_indices = file.View(Pack<std::uint16_t>({1, 0}));
   const int sparse_values = file.View(Pack<float>({3, 0, 0}));
   file.Accessor(0, 5126, 3, "VEC3",

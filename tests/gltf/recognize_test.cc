@@ -51,8 +51,12 @@ std::vector<Foreign> ForeignFiles() {
       {"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n", "a Radiance HDR picture", ""},
       {"\x76\x2F\x31\x01\x02\0\0\0"s, "an OpenEXR picture", ""},
       {"8BPS\0\x01"s, "a Photoshop picture", ""},
-      {"\0\0\0\x1C" "ftypavif"s, "an AVIF picture", ""},
-      {"\0\0\0\x18" "ftypmp42"s, "a video", ""},
+      {"\0\0\0\x1C"
+       "ftypavif"s,
+       "an AVIF picture", ""},
+      {"\0\0\0\x18"
+       "ftypmp42"s,
+       "a video", ""},
       {"%PDF-1.7", "a PDF document", ""},
       {"Kaydara FBX Binary  \0\x1A\0"s, "an FBX file", "convert it to glTF 2.0"},
       {"; FBX 7.3.0 project file\n", "an FBX file", "convert it to glTF 2.0"},
@@ -89,7 +93,8 @@ TEST(Recognize, ForeignFilesAreCalledByTheirName) {
 }
 
 TEST(Recognize, LetsGltfFilesPass) {
-  for (const std::string& bytes : {R"({"asset":{"version":"2.0"}})"s, "\xEF\xBB\xBF {\"asset\":{}}"s, "glTF\2\0\0\0"s}) {
+  for (const std::string& bytes :
+       {R"({"asset":{"version":"2.0"}})"s, "\xEF\xBB\xBF {\"asset\":{}}"s, "glTF\2\0\0\0"s}) {
     EXPECT_FALSE(gltf::RecognizeForeign(bytes)) << bytes;
   }
   // Neither one nor the other: the message quotes no parser.

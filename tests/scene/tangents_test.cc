@@ -23,8 +23,8 @@ Primitive Square(const F& uv) {
   return square;
 }
 
-// Of a map that KHR_texture_transform turns, mirrors, moves or stretches: the tangents of the same surface whose UVs are
-// written out as the map reads them.
+// Of a map that KHR_texture_transform turns, mirrors, moves or stretches: the tangents of the same surface whose UVs
+// are written out as the map reads them.
 TEST(Tangents, FollowTheTextureTransform) {
   Primitive surface;
   surface.topology = Topology::Triangles;
@@ -42,7 +42,8 @@ TEST(Tangents, FollowTheTextureTransform) {
       surface.indices.insert(surface.indices.end(), {i, i + 1, i + 4, i + 1, i + 5, i + 4});
     }
   }
-  for (const glm::vec2 scale : {glm::vec2(1, 1), glm::vec2(3, 0.5f), glm::vec2(-1, 1), glm::vec2(2, -2), glm::vec2(-1, -1)}) {
+  for (const glm::vec2 scale :
+       {glm::vec2(1, 1), glm::vec2(3, 0.5f), glm::vec2(-1, 1), glm::vec2(2, -2), glm::vec2(-1, -1)}) {
     for (const float rotation : {0.0f, 0.4f, 1.5707963f, 3.1415927f, -2.0f}) {
       const TextureRef map{0, 1, {0.25f, -3.0f}, scale, rotation};
       Primitive transformed = surface, baked = surface;
