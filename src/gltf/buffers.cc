@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "gltf/meshopt.h"
+#include "gltf/recognize.h"
 #include "gltf/uri.h"
 
 namespace facet::gltf {
@@ -97,9 +98,12 @@ const Bytes& BufferStore::Whole(std::size_t index) {
   if (buffer.declared_length && buffer.bytes->size < *buffer.declared_length) {
     const std::string what =
         "has " + std::to_string(buffer.bytes->size) + " bytes and declares " + std::to_string(*buffer.declared_length);
-    buffer.shortage = "buffers[" + std::to_string(index) + "] " + what + ": fetch the file again";
+    const Bytes& bytes = *buffer.bytes;
+    const auto foreign = RecognizeForeign({reinterpret_cast<const char*>(bytes.data), bytes.size});
+    const std::string kind = foreign ? ": it is " + foreign->what + "; " + foreign->hint : std::string();
+    buffer.shortage = "buffers[" + std::to_string(index) + "] " + what + (foreign ? kind : ": fetch the file again");
     const Place list_place(context_.place, "buffers");
-    Place(list_place, index).Warn(what);
+    Place(list_place, index).Warn(what + kind);
   }
   return *buffer.bytes;
 }

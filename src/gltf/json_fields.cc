@@ -17,8 +17,6 @@ constexpr std::size_t kMaxInteger = std::size_t(1) << 53;  // what JSON's number
   Fail(Place(place, key), std::string("is not ") + expected);
 }
 
-bool IsMinusOne(const Json& value) { return value.is_number_integer() && value.get<std::int64_t>() == -1; }
-
 // What `read` returns, or nothing where it throws.
 template <class Read>
 auto Leniently(const Read& read, const char* key, const Place& place) -> decltype(read()) {
@@ -107,6 +105,12 @@ const Json& RequireObject(const Json& object, const char* key, const Place& plac
   return *value;
 }
 
+bool IsAbsent(const Json& index, const Place& place) {
+  const bool is_minus_one = index.is_number_integer() && index.get<std::int64_t>() == -1;
+  if (is_minus_one || index.is_null()) place.Warn(index.dump() + " is read as absent");
+  return is_minus_one || index.is_null();
+}
+
 int AsIndex(const Json& value, std::size_t count, const char* list, const Place& place) {
   if (!value.is_number_unsigned()) Fail(place, "is not an index");
   const auto index = value.get<std::uint64_t>();
@@ -118,11 +122,7 @@ int AsIndex(const Json& value, std::size_t count, const char* list, const Place&
 
 int IndexAt(const Json& object, const char* key, std::size_t count, const char* list, const Place& place) {
   const Json* value = Find(object, key);
-  if (!value) return -1;
-  if (IsMinusOne(*value)) {
-    Place(place, key).Warn("-1 is read as absent");
-    return -1;
-  }
+  if (!value || IsAbsent(*value, Place(place, key))) return -1;
   return AsIndex(*value, count, list, Place(place, key));
 }
 

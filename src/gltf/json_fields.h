@@ -29,6 +29,9 @@ const Json& RequireArray(const Json& object, const char* key, const Place& place
 const Json& RequireObject(const Json& object, const char* key, const Place& place);
 void CheckObject(const Json& value, const Place& place);
 
+// True for null and -1, which exporters write for an index that there is not; with a warning.
+bool IsAbsent(const Json& index, const Place& place);
+
 // An index into a list of `count` things, called `list` in messages; -1 when absent, or -1 in the file (a warning).
 int IndexAt(const Json& object, const char* key, std::size_t count, const char* list, const Place& place);
 int RequireIndex(const Json& object, const char* key, std::size_t count, const char* list, const Place& place);

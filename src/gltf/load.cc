@@ -38,6 +38,7 @@ void ReadPrimitives(Context& context, BufferStore& buffers, AccessorReader& read
   const Place list_place(place, "primitives");
   for (std::size_t p = 0; p < primitives.size(); ++p) {
     const Place primitive_place(list_place, p);
+    if (IsAbsent(primitives[p], primitive_place)) continue;
     context.Try(use.shown, primitive_place, "ignored", [&] {
       CheckObject(primitives[p], primitive_place);
       auto primitive = ReadPrimitive(context, buffers, reader, primitives[p], use, primitive_place);

@@ -49,6 +49,7 @@ class TreeReader {
       const Place list_place(place, key);
       for (std::size_t k = 0; array && k < array->size(); ++k) {
         const Place element_place(list_place, k);
+        if (IsAbsent((*array)[k], element_place)) continue;
         try {
           const int node = AsIndex((*array)[k], scene_.nodes.size(), "nodes", element_place);
           if (std::exchange(marks[std::size_t(node)], mark) == mark) {
@@ -237,20 +238,25 @@ class TreeReader {
   std::vector<std::size_t> marks_;                               // by node: the list that had it last
 };
 
-// Of what nodes name: the first morph weights that hold, the mesh's where the node has none.
+void MarkTargets(const std::vector<float>& weights, MeshUse& use) {
+  if (use.moving_targets.size() < weights.size()) use.moving_targets.resize(weights.size(), false);
+  for (std::size_t t = 0; t < weights.size(); ++t) use.moving_targets[t] = use.moving_targets[t] || weights[t] != 0.0f;
+}
+
+// Of a node that is shown.
 void MarkMesh(const Context& context, const Json& node, const Place& place, Shown& shown) {
   const int mesh = LenientIndex(node, "mesh", shown.meshes.size(), "meshes", place);
   if (mesh < 0) return;
   MeshUse& use = shown.meshes[std::size_t(mesh)];
+  const Place meshes_place(context.place, "meshes");
+  if (!use.shown) {  // the mesh's own weights hold where a node has none
+    MarkTargets(LenientFloats(context.Object("meshes", std::size_t(mesh)), "weights",
+                              Place(meshes_place, std::size_t(mesh))),
+                use);
+  }
+  MarkTargets(LenientFloats(node, "weights", place), use);
   use.shown = true;
   use.skinned = use.skinned || Find(node, "skin") != nullptr;
-  const Place meshes_place(context.place, "meshes");
-  const Json& object = context.Object("meshes", std::size_t(mesh));
-  const std::vector<float> weights = Find(node, "weights")
-                                         ? LenientFloats(node, "weights", place)
-                                         : LenientFloats(object, "weights", Place(meshes_place, std::size_t(mesh)));
-  if (use.moving_targets.size() < weights.size()) use.moving_targets.resize(weights.size(), false);
-  for (std::size_t t = 0; t < weights.size(); ++t) use.moving_targets[t] = use.moving_targets[t] || weights[t] != 0.0f;
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "gltf/extensions.h"
+#include "gltf/recognize.h"
 #include "gltf/uri.h"
 #include "image/codec.h"
 #include "image/probe.h"
@@ -12,12 +13,30 @@
 namespace facet::gltf {
 namespace {
 
+// Throws Error(InvalidInput) for what cannot be a picture: in place of one people have what Git LFS leaves, or a
+// server's answer.
+void RefuseForeign(std::span<const std::byte> bytes, const std::string& name) {
+  const auto foreign = RecognizeForeign({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  if (!foreign || foreign->is_picture) return;
+  throw Error(ErrorCode::InvalidInput, "not a picture, but " + foreign->what, name, foreign->hint);
+}
+
+Image DecodeAny(std::span<const std::byte> bytes, const std::string& name) {
+  if (!ProbeImage(bytes)) RefuseForeign(bytes, name);
+  return DecodeImage(bytes, name);
+}
+
+void DecodeAnyRows(std::span<const std::byte> bytes, const std::string& name, const RowReceiver& receive) {
+  if (!ProbeImage(bytes)) RefuseForeign(bytes, name);
+  DecodeImageRows(bytes, name, receive);
+}
+
 // A picture in memory: a slice of the file, or of a data URI's bytes.
 class EncodedImage final : public ImageSource {
  public:
   EncodedImage(Bytes bytes, std::string name) : bytes_(std::move(bytes)), name_(std::move(name)) {}
-  Image Decode() const override { return DecodeImage(bytes_.Span(), name_); }
-  void DecodeRows(const RowReceiver& receive) const override { DecodeImageRows(bytes_.Span(), name_, receive); }
+  Image Decode() const override { return DecodeAny(bytes_.Span(), name_); }
+  void DecodeRows(const RowReceiver& receive) const override { DecodeAnyRows(bytes_.Span(), name_, receive); }
   std::string Name() const override { return name_; }
   std::optional<ImageHeader> Header() const override { return ProbeImage(bytes_.Span()); }
 
@@ -30,9 +49,9 @@ class EncodedImage final : public ImageSource {
 class ImageFile final : public ImageSource {
  public:
   explicit ImageFile(std::filesystem::path path) : path_(std::move(path)) {}
-  Image Decode() const override { return DecodeImage(ReadWholeFile(path_).Span(), Name()); }
+  Image Decode() const override { return DecodeAny(ReadWholeFile(path_).Span(), Name()); }
   void DecodeRows(const RowReceiver& receive) const override {
-    DecodeImageRows(ReadWholeFile(path_).Span(), Name(), receive);
+    DecodeAnyRows(ReadWholeFile(path_).Span(), Name(), receive);
   }
   std::string Name() const override { return path_.string(); }
   std::optional<ImageHeader> Header() const override;

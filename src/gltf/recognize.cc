@@ -135,7 +135,7 @@ ForeignFile RecognizeMarkup(std::string_view start) {
   }
   if (Contains(start, "<collada")) return {"a COLLADA file", kConvert};
   if (Contains(start, "<x3d")) return {"an X3D file", kConvert};
-  if (Contains(start, "<svg")) return {"an SVG picture", kPicture};
+  if (Contains(start, "<svg")) return {"an SVG picture", kPicture, true};
   if (Contains(start, "<plist")) return {"a shortcut", "name the file that it leads to"};
   return {"an XML document", kDownload};
 }
@@ -177,7 +177,8 @@ std::optional<ForeignFile> RecognizeForeign(std::string_view file) {
   const bool is_text = IsText(file.substr(0, kStart));
   for (const Signature& known : kSignatures) {
     if (is_text && known.bytes.size() <= 2) continue;  // two letters may begin any text
-    if (Holds(file, known.at, known.bytes)) return ForeignFile{known.what, known.hint ? known.hint : ""};
+    if (!Holds(file, known.at, known.bytes)) continue;
+    return ForeignFile{known.what, known.hint ? known.hint : "", known.hint == kPicture};
   }
   if (Holds(file, 0, "PK\x03\x04") || Holds(file, 0, "PK\x05\x06")) return RecognizeZip(file);
   if (Holds(file, 0, "MM") && file.size() >= 6 && Little(file, 2, 4) == file.size()) {

@@ -10,6 +10,7 @@ namespace facet::gltf {
 struct ForeignFile {
   std::string what;  // "a PNG picture"
   std::string hint;  // what to do about it, may be empty
+  bool is_picture = false;
 };
 
 // Told by the content. Nothing for what begins as JSON or GLB, and for what is none of the kinds that are known.

@@ -399,6 +399,21 @@ TEST(Lenient, WhatIsNotShownNeverRefusesTheFile) {
   EXPECT_TRUE(Load(unskinned).loaded);
 }
 
+TEST(Lenient, NullAndMinusOneInListsAreAbsent) {
+  for (const json& nothing : {json(nullptr), json(-1)}) {
+    json file = Everything();
+    file["nodes"][6]["children"].insert(file["nodes"][6]["children"].begin(), nothing);
+    file["scenes"][0]["nodes"].push_back(nothing);
+    file["meshes"][0]["primitives"].push_back(nothing);
+    const Outcome outcome = Load(file);
+    ASSERT_TRUE(outcome.loaded) << outcome.error;
+    EXPECT_EQ(Digest(*outcome.loaded), Digest(*Load(Everything()).loaded));
+    const std::string said = ": " + nothing.dump() + " is read as absent";
+    EXPECT_EQ(outcome.Warnings(), (std::vector<std::string>{"nodes[6].children[0]" + said, "scenes[0].nodes[7]" + said,
+                                                            "meshes[0].primitives[1]" + said}));
+  }
+}
+
 TEST(Lenient, ABrokenCameraIsNotOffered) {
   json file = With("/cameras/0/perspective/yfov", 0);
   const Outcome outcome = Load(file);

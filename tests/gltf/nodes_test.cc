@@ -122,6 +122,16 @@ TEST(Nodes, InstancesAndVisibility) {
   EXPECT_TRUE(loaded.report.warnings.empty());
 }
 
+TEST(Nodes, NoInstancesAreNoMesh) {
+  FileMaker file;
+  file.Attribute("POSITION", file.Triangle());
+  file.NodeMore() = ",\"extensions\":{\"EXT_mesh_gpu_instancing\":{\"attributes\":{\"TRANSLATION\":" +
+                    std::to_string(file.Accessor(-1, 5126, 0, "VEC3")) + "}}}";
+  const LoadedScene loaded = LoadBytes(file.AsGlb());
+  EXPECT_EQ(loaded.scene.nodes.at(0).mesh, -1);
+  EXPECT_EQ(loaded.report.warnings.size(), 1u);
+}
+
 TEST(Nodes, SkinsReadTheirMatrices) {
   FileMaker file;
   file.Attribute("POSITION", file.Triangle());

@@ -92,6 +92,37 @@ TEST(Recognize, ForeignFilesAreCalledByTheirName) {
   }
 }
 
+// Beside a glTF file that is right, what it names may not be.
+TEST(Recognize, BuffersAndPicturesThatWereNotFetched) {
+  const std::string pointer = "version https://git-lfs.github.com/spec/v1\noid sha256:0\n";
+  const testing::TempFolder folder;
+  testing::FileMaker file;
+  file.Attribute("POSITION", file.Floats(std::vector<float>(99, 1.0f), "VEC3", 3));
+  file.RootMore() = R"(,"images":[{"uri":"a.png"},{"uri":"b.png"}])";
+  folder.Write("a.bin", pointer);
+  folder.Write("a.png", pointer);
+  folder.Write("b.png", "<!DOCTYPE html><html>");
+  try {
+    LoadGltf(folder.Write("a.gltf", file.Json("a.bin")));
+    ADD_FAILURE() << "no error";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("it is a Git LFS pointer in place of the file; run \"git lfs pull\""),
+              std::string::npos)
+        << error.what();
+  }
+  folder.Write("a.bin", file.Bin());
+  const LoadedScene loaded = LoadGltf(folder.Write("a.gltf", file.Json("a.bin")));
+  for (const auto& [image, what] : {std::pair(0, "not a picture, but a Git LFS pointer"), {1, "not a picture, but an HTML"}}) {
+    try {
+      loaded.scene.images.at(std::size_t(image)).source->Decode();
+      ADD_FAILURE() << "no error";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::InvalidInput);
+      EXPECT_NE(std::string(error.what()).find(what), std::string::npos) << error.what();
+    }
+  }
+}
+
 TEST(Recognize, LetsGltfFilesPass) {
   for (const std::string& bytes :
        {R"({"asset":{"version":"2.0"}})"s, "\xEF\xBB\xBF {\"asset\":{}}"s, "glTF\2\0\0\0"s}) {
