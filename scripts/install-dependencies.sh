@@ -8,7 +8,7 @@ set -euo pipefail
 
 packages=(cmake ninja-build g++ pkg-config
   libglm-dev libhwy-dev libtbb-dev                      # the core
-  libtinygltf-dev nlohmann-json3-dev libdraco-dev libmeshoptimizer-dev
+  nlohmann-json3-dev libdraco-dev libmeshoptimizer-dev
   libpng-dev libdeflate-dev libjpeg-dev libopenimageio-dev libimath-dev # pictures
   libcli11-dev)
 extras=(clang libclang-rt-dev libgtest-dev libbenchmark-dev python3 python3-numpy python3-pil)

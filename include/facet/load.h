@@ -26,7 +26,9 @@ struct ExtensionUse {
 struct LoadReport {
   std::string generator, copyright, version;   // asset's
   std::vector<ExtensionUse> extensions;        // sorted by name
-  std::vector<std::string> warnings;           // one line each: "WHERE: WHAT"; what was ignored or repaired
+  // What was ignored or repaired, one line for each mistake: "WHERE: WHAT", where it stands first, and in how many more
+  // places. docs/conventions.md says what is repaired.
+  std::vector<std::string> warnings;
   std::size_t file_bytes = 0;                  // all files that were read
   // The scene's own file, and those that it names, of images also where they are not read yet.
   std::vector<std::filesystem::path> files;
@@ -55,7 +57,8 @@ struct LoadOptions {
   bool ignore_required_extensions = false;
 };
 
-// Loads a .gltf or .glb file (told apart by content). Pictures stay encoded until they are needed.
+// Loads a .gltf or .glb file (told apart by content). Pictures stay encoded until they are needed. What breaks glTF's
+// rules is an error only where the default scene shows it and it cannot be guessed.
 // Throws Error: NotFound, InvalidInput, Unsupported (a required extension, by name), OutOfMemory.
 LoadedScene LoadGltf(const std::filesystem::path& path, const LoadOptions& options = {});
 

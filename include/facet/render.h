@@ -38,7 +38,7 @@ struct OrbitCamera {
   std::optional<double> yfov;                    // radians; 45 degrees if none
 };
 
-// A camera of the scene, by index into Scene::cameras, placed by the first visible node that holds it.
+// A camera of the scene, by index into Scene::cameras, placed by the first node of the scene that holds it.
 struct SceneCamera {
   int camera = 0;
 };
@@ -190,7 +190,7 @@ struct RenderStats {
   std::string target;                    // instruction set: SCALAR, SSE4, AVX2 or AVX3
   int threads = 0;
   std::vector<std::string> left_out;     // what the frame did without, one line each: "WHAT: WHY"
-  std::vector<std::string> warnings;     // images that could not be decoded, and the like
+  std::vector<std::string> warnings;     // images that could not be decoded, why nothing is visible or lit
 };
 
 // Renders. Safe to call from several threads at once. Throws Error: InvalidUsage for settings out of range,

@@ -152,7 +152,7 @@ struct Node {
   std::optional<glm::dmat4> matrix;  // instead of `transform`, when the file gives one
   int mesh = -1, skin = -1, camera = -1, light = -1;
   std::vector<float> weights;        // morph weights; empty: the mesh's
-  bool visible = true;               // KHR_node_visibility; inherited
+  bool visible = true;               // KHR_node_visibility; inherited; cameras are never hidden
   std::vector<Transform> instances;  // EXT_mesh_gpu_instancing; empty: the mesh once
 };
 
@@ -165,7 +165,9 @@ struct AnimationChannel {
   int node = -1;
   AnimationPath path = AnimationPath::Translation;
   Interpolation interpolation = Interpolation::Linear;
-  std::vector<float> times;   // seconds, strictly increasing
+  // Seconds, never decreasing. Of keys at one time, which make a jump, the first ends the span before, the last begins
+  // the span after.
+  std::vector<float> times;
   // times.size() * width numbers, or thrice that for CubicSpline (in-tangent, value, out-tangent per key);
   // width is 3, 4 (x, y, z, w) or the number of morph targets.
   std::vector<float> values;
@@ -180,7 +182,7 @@ struct Animation {
 
 struct SceneRoots {
   std::string name;
-  std::vector<int> nodes;
+  std::vector<int> nodes;  // with all that is below them. One that has a parent stands as if it had none
 };
 
 // Every index in it is valid or -1, and the node hierarchy is a forest: loaders guarantee it, ValidateScene checks it.

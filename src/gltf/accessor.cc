@@ -70,100 +70,134 @@ void ConvertUnsigned(const std::byte* from, std::size_t stride, std::size_t coun
   }
 }
 
-struct Layout {
-  int columns = 1, rows = 1;
-  std::size_t size = 0;  // bytes of an element, with the padding of small matrices
-};
-
-Layout LayoutOf(int tinygltf_type, ComponentType type) {
-  Layout layout;
-  switch (tinygltf_type) {
-    case TINYGLTF_TYPE_VEC2: layout.rows = 2; break;
-    case TINYGLTF_TYPE_VEC3: layout.rows = 3; break;
-    case TINYGLTF_TYPE_VEC4: layout.rows = 4; break;
-    case TINYGLTF_TYPE_MAT2: layout.columns = layout.rows = 2; break;
-    case TINYGLTF_TYPE_MAT3: layout.columns = layout.rows = 3; break;
-    case TINYGLTF_TYPE_MAT4: layout.columns = layout.rows = 4; break;
-    default: break;
-  }
-  std::size_t column = SizeOfComponent(type) * static_cast<std::size_t>(layout.rows);
-  if (layout.columns > 1) column = (column + 3) / 4 * 4;  // matrix columns start at multiples of four bytes
-  layout.size = column * static_cast<std::size_t>(layout.columns);
-  return layout;
+void SetShape(const std::string& name, const Place& place, AccessorInfo& info) {
+  struct Shape {
+    const char* name;
+    int columns, rows;
+  };
+  constexpr Shape kShapes[] = {{"SCALAR", 1, 1}, {"VEC2", 1, 2}, {"VEC3", 1, 3}, {"VEC4", 1, 4},
+                               {"MAT2", 2, 2},   {"MAT3", 3, 3}, {"MAT4", 4, 4}};
+  const auto* const shape =
+      std::find_if(std::begin(kShapes), std::end(kShapes), [&](const Shape& s) { return name == s.name; });
+  if (shape == std::end(kShapes)) Fail(place, "is not a type that glTF knows");
+  info.columns = shape->columns;
+  info.rows = shape->rows;
+  std::size_t column = SizeOfComponent(info.type) * static_cast<std::size_t>(info.rows);
+  if (info.columns > 1) column = (column + 3) / 4 * 4;  // matrix columns start at multiples of four bytes
+  info.size = column * static_cast<std::size_t>(info.columns);
 }
 
-// `count` elements of `size` bytes, `stride` apart, from `offset` on.
-Bytes CheckedRun(const Bytes& view, std::size_t offset, std::size_t count, std::size_t size, std::size_t stride,
-                 const Place& place) {
-  const bool fits =
-      offset <= view.size && size <= view.size - offset && (count - 1) <= (view.size - offset - size) / stride;
-  if (!fits) {
-    Fail(place, std::to_string(count) + " elements from byte " + std::to_string(offset) + " on reach past the " +
-                    std::to_string(view.size) + " bytes of their buffer view");
-  }
-  return view.Slice(offset, (count - 1) * stride + size);
+// Throws where elements reach past `available` bytes.
+void CheckRun(std::size_t available, std::size_t offset, std::size_t count, std::size_t size, std::size_t stride,
+              const std::string& shortage, const Place& place) {
+  if (count == 0) return;
+  const bool fits = offset <= available && size <= available - offset &&
+                    (stride == 0 || (count - 1) <= (available - offset - size) / stride);
+  if (fits) return;
+  Fail(place,
+       std::to_string(count) + " elements from byte " + std::to_string(offset) + " on reach past the " +
+           std::to_string(available) + " bytes of their buffer view",
+       shortage);
 }
 
 }  // namespace
 
-std::size_t AccessorReader::Count(int accessor) const {
-  return context_.document.core.accessors[static_cast<std::size_t>(accessor)].count;
+AccessorInfo AccessorReader::Describe(int index) {
+  const auto i = static_cast<std::size_t>(index);
+  const Json& object = context_.Object("accessors", i);
+  const Place list_place(context_.place, "accessors");
+  const Place place(list_place, i);
+  is_used_[i] = true;
+  AccessorInfo info;
+  info.view = IndexAt(object, "bufferView", context_.document.Count("bufferViews"), "bufferViews", place);
+  info.offset = SizeAt(object, "byteOffset", place).value_or(0);
+  info.count = RequireSize(object, "count", place);
+  RequireSize(object, "componentType", place);
+  info.type =
+      static_cast<ComponentType>(*OneOfAt(object, "componentType", {5120, 5121, 5122, 5123, 5125, 5126}, place));
+  info.normalized = BoolAt(object, "normalized", place).value_or(false) && info.type != ComponentType::F32;
+  SetShape(RequireString(object, "type", place), Place(place, "type"), info);
+  return info;
+}
+
+Bytes AccessorReader::Run(int view, std::size_t offset, std::size_t count, std::size_t size, std::size_t stride,
+                          const Place& place) {
+  const Bytes& bytes = buffers_.Read(view);
+  CheckRun(bytes.size, offset, count, size, stride, buffers_.Shortage(view), place);
+  return count == 0 ? Bytes() : bytes.Slice(offset, (count - 1) * stride + size);
 }
 
 AccessorView AccessorReader::View(int index) {
   const auto i = static_cast<std::size_t>(index);
-  const auto& accessor = context_.document.core.accessors[i];
+  const AccessorInfo info = Describe(index);
   const Place list_place(context_.place, "accessors");
   const Place place(list_place, i);
 
   AccessorView view;
-  view.count = accessor.count;
-  view.type = static_cast<ComponentType>(accessor.componentType);
-  view.normalized = accessor.normalized && view.type != ComponentType::F32;
-  const Layout layout = LayoutOf(accessor.type, view.type);
-  view.components = layout.columns * layout.rows;
-  view.is_matrix = layout.columns > 1;
-  view.stride = layout.size;
-  const bool is_placeholder = accessor.bufferView >= 0 && !buffers_.HasData(accessor.bufferView);
-  if (is_placeholder) context_.Warn(place, "its buffer has no data; zeros are read");
-  if (accessor.bufferView >= 0 && !is_placeholder) {
-    const std::size_t stride =
-        context_.document.core.bufferViews[static_cast<std::size_t>(accessor.bufferView)].byteStride;
-    if (stride != 0 && stride < layout.size) {
-      Fail(place, "its elements of " + std::to_string(layout.size) + " bytes overlap: byteStride is " +
-                      std::to_string(stride));
+  view.count = info.count;
+  view.type = info.type;
+  view.normalized = info.normalized;
+  view.components = info.columns * info.rows;
+  view.is_matrix = info.columns > 1;
+  view.stride = info.size;
+  const bool is_placeholder = info.view >= 0 && !buffers_.HasData(info.view);
+  if (is_placeholder) place.Warn("its buffer has no data; zeros are read");
+  if (info.view >= 0 && !is_placeholder) {
+    const std::size_t stride = buffers_.Describe(info.view).stride;
+    if (stride != 0 && stride < info.size) {
+      Fail(place,
+           "its elements of " + std::to_string(info.size) + " bytes overlap: byteStride is " + std::to_string(stride));
     }
     if (stride != 0) view.stride = stride;
-    view.bytes = CheckedRun(buffers_.View(accessor.bufferView), accessor.byteOffset, view.count, layout.size,
-                            view.stride, place);
+    view.bytes = Run(info.view, info.offset, view.count, info.size, view.stride, place);
   } else if (view.count > kMaxUnbackedElements) {
     Fail(place, "claims " + std::to_string(view.count) + " elements that no buffer view holds", {},
          ErrorCode::OutOfMemory);
   }
-
-  if (const Json* sparse = Find(context_.Object("accessors", i), "sparse")) {
-    const Place sparse_place(place, "sparse");
-    view.sparse_count = RequireSize(*sparse, "count", sparse_place);
-    if (view.sparse_count == 0) return view;
-    const Json& indices = *Find(*sparse, "indices");
-    const Json& values = *Find(*sparse, "values");
-    view.sparse_type = static_cast<ComponentType>(RequireSize(indices, "componentType", sparse_place));
-    const std::size_t index_size = SizeOfComponent(view.sparse_type);
-    view.sparse_indices =
-        CheckedRun(buffers_.View(indices["bufferView"].get<int>()), SizeAt(indices, "byteOffset", place).value_or(0),
-                   view.sparse_count, index_size, index_size, Place(sparse_place, "indices"));
-    view.sparse_values =
-        CheckedRun(buffers_.View(values["bufferView"].get<int>()), SizeAt(values, "byteOffset", place).value_or(0),
-                   view.sparse_count, layout.size, layout.size, Place(sparse_place, "values"));
-    for (std::size_t k = 0; k < view.sparse_count; ++k) {
-      const std::size_t target = LoadUnsigned(view.sparse_type, view.sparse_indices.data + k * index_size);
-      if (target >= view.count) {
-        Fail(Place(sparse_place, "indices"),
-             std::to_string(target) + " is not one of the " + std::to_string(view.count) + " elements");
-      }
-    }
+  if (const Json* sparse = ObjectAt(context_.Object("accessors", i), "sparse", place)) {
+    ReadSparse(*sparse, info.size, Place(place, "sparse"), view);
   }
   return view;
+}
+
+void AccessorReader::ReadSparse(const Json& sparse, std::size_t element_size, const Place& place, AccessorView& view) {
+  const std::size_t count = RequireSize(sparse, "count", place);
+  if (count > view.count) Fail(Place(place, "count"), "is larger than the accessor's");
+  if (count == 0) return;
+  const Place indices_place(place, "indices"), values_place(place, "values");
+  const Json &indices = RequireObject(sparse, "indices", place), &values = RequireObject(sparse, "values", place);
+  const std::size_t views = context_.document.Count("bufferViews");
+  RequireSize(indices, "componentType", indices_place);
+  view.sparse_type = static_cast<ComponentType>(*OneOfAt(indices, "componentType", {5121, 5123, 5125}, indices_place));
+  const std::size_t index_size = SizeOfComponent(view.sparse_type);
+  view.sparse_indices =
+      Run(RequireIndex(indices, "bufferView", views, "bufferViews", indices_place),
+          SizeAt(indices, "byteOffset", indices_place).value_or(0), count, index_size, index_size, indices_place);
+  view.sparse_values =
+      Run(RequireIndex(values, "bufferView", views, "bufferViews", values_place),
+          SizeAt(values, "byteOffset", values_place).value_or(0), count, element_size, element_size, values_place);
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t target = LoadUnsigned(view.sparse_type, view.sparse_indices.data + k * index_size);
+    if (target >= view.count) {
+      Fail(indices_place, std::to_string(target) + " is not one of the " + std::to_string(view.count) + " elements");
+    }
+  }
+  view.sparse_count = count;
+}
+
+void AccessorReader::CheckUnused() {
+  const Place list_place(context_.place, "accessors");
+  for (std::size_t i = 0; i < is_used_.size(); ++i) {
+    if (is_used_[i]) continue;
+    const Place place(list_place, i);
+    context_.Try(false, place, "nothing reads it", [&] {
+      const AccessorInfo info = Describe(static_cast<int>(i));
+      if (info.view < 0) return;
+      const std::size_t stride = buffers_.Describe(info.view).stride;
+      CheckRun(buffers_.Size(info.view), info.offset, info.count, info.size, stride != 0 ? stride : info.size, {},
+               place);
+    });
+  }
 }
 
 void AccessorReader::ReadFloats(const AccessorView& view, Range range, int components, float* out, const Place& place) {
@@ -195,7 +229,7 @@ void AccessorReader::ReadFloats(const AccessorView& view, Range range, int compo
   for (std::size_t i = 0; i < total; ++i) {
     if ((std::bit_cast<std::uint32_t>(out[i]) & kExponent) == kExponent) out[i] = 0.0f;
   }
-  context_.Warn(place, std::to_string(bad) + " numbers that are not finite were replaced by 0");
+  place.Warn(std::to_string(bad) + " numbers that are not finite were replaced by 0");
 }
 
 void AccessorReader::ReadUnsigned(const AccessorView& view, Range range, int components, std::uint32_t* out) {

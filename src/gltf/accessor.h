@@ -21,6 +21,16 @@ constexpr std::size_t SizeOfComponent(ComponentType type) {
   }
 }
 
+// An accessor as the file describes it, its sparse part aside.
+struct AccessorInfo {
+  int view = -1;  // -1: all zeros
+  std::size_t offset = 0, count = 0;
+  ComponentType type = ComponentType::F32;
+  bool normalized = false;  // integers only
+  int columns = 1, rows = 1;
+  std::size_t size = 0;  // bytes of an element, with the padding of small matrices
+};
+
 // Elements that have been checked to lie within their bytes.
 struct AccessorView {
   Bytes bytes;             // the first element starts here; null data: all zeros
@@ -43,13 +53,19 @@ struct Range {
 
 class AccessorReader {
  public:
-  AccessorReader(Context& context, BufferStore& buffers) : context_(context), buffers_(buffers) {}
+  AccessorReader(Context& context, BufferStore& buffers)
+      : context_(context), buffers_(buffers), is_used_(context.document.Count("accessors"), false) {}
+
+  // Throws Error(InvalidInput) where the file's description is broken.
+  AccessorInfo Describe(int accessor);
+  std::size_t Count(int accessor) { return Describe(accessor).count; }
 
   // Throws Error(InvalidInput) when an element lies outside of its bytes, Error(OutOfMemory) when the accessor claims
   // more elements than a file that does not hold them may.
   AccessorView View(int accessor);
 
-  std::size_t Count(int accessor) const;
+  // Warns of what is wrong with accessors that nobody has asked for, without reading what they hold.
+  void CheckUnused();
 
   // The first min(components, view.components) numbers of each element of `range` (within view.count), as float:
   // integers that are normalised by glTF 2.0's section 3.11 (max(c / 127, -1) and its like), others by value. What is
@@ -61,8 +77,13 @@ class AccessorReader {
   void ReadUnsigned(const AccessorView& view, Range range, int components, std::uint32_t* out);
 
  private:
+  void ReadSparse(const Json& sparse, std::size_t element_size, const Place& place, AccessorView& view);
+  // `count` elements of `size` bytes, `stride` apart, from `offset` of a buffer view on.
+  Bytes Run(int view, std::size_t offset, std::size_t count, std::size_t size, std::size_t stride, const Place& place);
+
   Context& context_;
   BufferStore& buffers_;
+  std::vector<bool> is_used_;
 };
 
 }  // namespace facet::gltf

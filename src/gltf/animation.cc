@@ -12,11 +12,12 @@ std::size_t TargetCount(const Scene& scene, int mesh) {
   return primitives.empty() ? 0 : primitives.front().targets.size();
 }
 
-// Keeps the keys whose times increase.
-void DropStaleKeys(Context& context, AnimationChannel& channel, std::size_t numbers_per_key, const Place& place) {
-  std::size_t kept = 0;
+// Keeps the keys whose times do not decrease.
+void DropStaleKeys(AnimationChannel& channel, std::size_t numbers_per_key, const Place& place) {
+  std::size_t kept = 0, jumps = 0;
   for (std::size_t key = 0; key < channel.times.size(); ++key) {
-    if (kept > 0 && !(channel.times[key] > channel.times[kept - 1])) continue;
+    if (kept > 0 && channel.times[key] < channel.times[kept - 1]) continue;
+    jumps += kept > 0 && channel.times[key] == channel.times[kept - 1];
     if (kept != key) {
       channel.times[kept] = channel.times[key];
       for (std::size_t i = 0; i < numbers_per_key; ++i) {
@@ -25,8 +26,9 @@ void DropStaleKeys(Context& context, AnimationChannel& channel, std::size_t numb
     }
     ++kept;
   }
+  if (jumps) place.Warn(std::to_string(jumps) + " keys have the time of the one before: the values jump there");
   if (kept == channel.times.size()) return;
-  context.Warn(place, std::to_string(channel.times.size() - kept) + " keys were dropped: their times do not increase");
+  place.Warn(std::to_string(channel.times.size() - kept) + " keys were dropped: their times decrease");
   channel.times.resize(kept);
   channel.values.resize(kept * numbers_per_key);
 }
@@ -44,86 +46,129 @@ std::optional<PathShape> ShapeOf(const std::string& path) {
   return std::nullopt;
 }
 
-Interpolation InterpolationOf(Context& context, const std::string& name, const Place& place) {
+Interpolation InterpolationOf(const Json& sampler, const Place& place) {
+  const std::string name = LenientString(sampler, "interpolation", place).value_or("LINEAR");
   if (name == "STEP") return Interpolation::Step;
   if (name == "CUBICSPLINE") return Interpolation::CubicSpline;
-  if (name != "LINEAR") context.Warn(place, "\"" + name + "\" is unknown; LINEAR is used");
+  if (name != "LINEAR") Place(place, "interpolation").Warn("\"" + name + "\" is unknown; LINEAR is used");
   return Interpolation::Linear;
 }
 
-std::optional<AnimationChannel> ReadChannel(Context& context, AccessorReader& reader, const Scene& scene,
-                                            const tinygltf::AnimationChannel& from,
-                                            const tinygltf::AnimationSampler& sampler, const Place& place) {
-  const auto shape = ShapeOf(from.target_path);
-  if (!shape) {
-    context.Warn(place, "ignored: its path \"" + from.target_path + "\" is unknown");
-    return std::nullopt;
-  }
-  const Node& node = scene.nodes[static_cast<std::size_t>(from.target_node)];
-  AnimationChannel channel;
-  channel.node = from.target_node;
-  channel.path = shape->path;
-  std::size_t width = static_cast<std::size_t>(shape->components);
-  if (channel.path == AnimationPath::Weights) {
-    width = TargetCount(scene, node.mesh);
-    if (width == 0) {
-      context.Warn(place, "ignored: its node has no morph targets");
-      return std::nullopt;
-    }
-  } else if (node.matrix) {
-    context.Warn(place, "ignored: its node has a matrix");
-    return std::nullopt;
-  }
-  channel.interpolation = InterpolationOf(context, sampler.interpolation, place);
+// What a channel moves; nothing (perhaps with a warning) where that is nothing.
+struct Target {
+  int node = -1;
+  PathShape shape{AnimationPath::Translation, 3};
+  std::size_t width = 3;  // numbers a key
+};
 
-  const Place input_place(place, "input"), output_place(place, "output");
-  const AccessorView input = reader.View(sampler.input), output = reader.View(sampler.output);
-  if (input.type != ComponentType::F32 || input.components != 1) Fail(input_place, "times are not float scalars");
-  if (output.is_matrix || output.components != shape->components) {
-    Fail(output_place, "values do not have " + std::to_string(shape->components) + " components");
+class AnimationReader {
+ public:
+  AnimationReader(Context& context, AccessorReader& reader, const Scene& scene, const Json& object, const Place& place)
+      : context_(context), reader_(reader), scene_(scene), object_(object), place_(place) {}
+
+  Animation Read() {
+    Animation animation;
+    animation.name = NameOf(object_, place_);
+    if (!Find(object_, "channels")) place_.Warn("\"channels\" is missing");
+    const Json* channels = LenientArray(object_, "channels", place_);
+    samplers_ = LenientArray(object_, "samplers", place_);
+    const Place channels_place(place_, "channels");
+    std::set<std::pair<int, AnimationPath>> taken;
+    for (std::size_t c = 0; channels && c < channels->size(); ++c) {
+      const Place place(channels_place, c);
+      std::optional<AnimationChannel> channel;
+      context_.Try(false, place, "ignored", [&] {
+        CheckObject((*channels)[c], place);
+        channel = ReadChannel((*channels)[c], place);
+      });
+      if (!channel) continue;
+      if (taken.insert({channel->node, channel->path}).second) {
+        animation.channels.push_back(*std::move(channel));
+      } else {
+        place.Warn("ignored: an earlier channel moves the same");
+      }
+    }
+    return animation;
   }
-  const std::size_t elements_per_key = (channel.path == AnimationPath::Weights ? width : 1) *
-                                       (channel.interpolation == Interpolation::CubicSpline ? 3 : 1);
-  if (output.count / elements_per_key != input.count || output.count % elements_per_key != 0) {
-    Fail(output_place, "has " + std::to_string(output.count) + " elements for " + std::to_string(input.count) +
-                           " keys of " + std::to_string(elements_per_key));
+
+ private:
+  std::optional<Target> ReadTarget(const Json& object, const Place& place) const {
+    Target target;
+    target.node = IndexAt(object, "node", scene_.nodes.size(), "nodes", place);
+    if (target.node < 0) return std::nullopt;  // for extensions, says the specification
+    const std::string path = RequireString(object, "path", place);
+    const auto shape = ShapeOf(path);
+    if (!shape) Fail(Place(place, "path"), "\"" + path + "\" is unknown");
+    const Node& node = scene_.nodes[static_cast<std::size_t>(target.node)];
+    target.shape = *shape;
+    target.width = static_cast<std::size_t>(shape->components);
+    if (shape->path == AnimationPath::Weights) {
+      target.width = TargetCount(scene_, node.mesh);
+      if (target.width == 0) Fail(place, "its node has no morph targets");
+    } else if (node.matrix) {
+      Place(place, "node").Warn("has a matrix, which is taken apart into translation, rotation and scale");
+    }
+    return target;
   }
-  const std::size_t components = static_cast<std::size_t>(shape->components);
-  context.Charge(input.count, sizeof(float), place);
-  context.Charge(output.count, components * sizeof(float), place);
-  channel.times.resize(input.count);
-  channel.values.resize(output.count * components);
-  reader.ReadFloats(input, {0, input.count}, 1, channel.times.data(), input_place);
-  reader.ReadFloats(output, {0, output.count}, shape->components, channel.values.data(), output_place);
-  DropStaleKeys(context, channel, elements_per_key * components, place);
-  return channel;
-}
+
+  std::optional<AnimationChannel> ReadChannel(const Json& object, const Place& place) {
+    const auto target = ReadTarget(RequireObject(object, "target", place), Place(place, "target"));
+    if (!target) return std::nullopt;
+    const Place samplers_place(place_, "samplers");
+    const int index = RequireIndex(object, "sampler", samplers_ ? samplers_->size() : 0, "samplers", place);
+    const Place sampler_place(samplers_place, static_cast<std::size_t>(index));
+    const Json& sampler = (*samplers_)[static_cast<std::size_t>(index)];
+    CheckObject(sampler, sampler_place);
+    return ReadCurve(*target, sampler, sampler_place);
+  }
+
+  AnimationChannel ReadCurve(const Target& target, const Json& sampler, const Place& place) {
+    AnimationChannel channel;
+    channel.node = target.node;
+    channel.path = target.shape.path;
+    channel.interpolation = InterpolationOf(sampler, place);
+    const std::size_t accessors = context_.document.Count("accessors");
+    const Place input_place(place, "input"), output_place(place, "output");
+    const AccessorView input = reader_.View(RequireIndex(sampler, "input", accessors, "accessors", place));
+    const AccessorView output = reader_.View(RequireIndex(sampler, "output", accessors, "accessors", place));
+    if (input.components != 1) Fail(input_place, "times are not scalars");
+    if (input.type != ComponentType::F32) input_place.Warn("times are not floats");
+    if (output.is_matrix || output.components != target.shape.components) {
+      Fail(output_place, "values do not have " + std::to_string(target.shape.components) + " components");
+    }
+    const bool is_cubic = channel.interpolation == Interpolation::CubicSpline;
+    const std::size_t per_key = (channel.path == AnimationPath::Weights ? target.width : 1) * (is_cubic ? 3 : 1);
+    const std::string sizes = "has " + std::to_string(output.count) + " elements for " + std::to_string(input.count) +
+                              " keys of " + std::to_string(per_key);
+    if (input.count == 0 || output.count / per_key < input.count) Fail(output_place, sizes);
+    const std::size_t values = input.count * per_key;
+    if (output.count != values) output_place.Warn(sizes + "; the first are read");
+    const auto components = static_cast<std::size_t>(target.shape.components);
+    context_.Charge(input.count, sizeof(float), place);
+    context_.Charge(values, components * sizeof(float), place);
+    channel.times.resize(input.count);
+    channel.values.resize(values * components);
+    reader_.ReadFloats(input, {0, input.count}, 1, channel.times.data(), input_place);
+    reader_.ReadFloats(output, {0, values}, target.shape.components, channel.values.data(), output_place);
+    DropStaleKeys(channel, per_key * components, place);
+    return channel;
+  }
+
+  Context& context_;
+  AccessorReader& reader_;
+  const Scene& scene_;
+  const Json& object_;
+  const Place& place_;
+  const Json* samplers_ = nullptr;
+};
 
 }  // namespace
 
 void ReadAnimations(Context& context, AccessorReader& reader, Scene& scene) {
   const Place list_place(context.place, "animations");
-  for (std::size_t a = 0; a < context.document.core.animations.size(); ++a) {
-    const auto& from = context.document.core.animations[a];
+  for (std::size_t a = 0; a < context.document.Count("animations"); ++a) {
     const Place place(list_place, a);
-    const Place channels_place(place, "channels");
-    Animation animation;
-    animation.name = from.name;
-    std::set<std::pair<int, AnimationPath>> taken;
-    for (std::size_t c = 0; c < from.channels.size(); ++c) {
-      const auto& channel_from = from.channels[c];
-      if (channel_from.target_node < 0) continue;  // for extensions, says the specification
-      const Place channel_place(channels_place, c);
-      auto channel = ReadChannel(context, reader, scene, channel_from,
-                                 from.samplers[static_cast<std::size_t>(channel_from.sampler)], channel_place);
-      if (!channel) continue;
-      if (!taken.insert({channel->node, channel->path}).second) {
-        context.Warn(channel_place, "ignored: an earlier channel moves the same");
-        continue;
-      }
-      animation.channels.push_back(*std::move(channel));
-    }
-    scene.animations.push_back(std::move(animation));
+    scene.animations.push_back(AnimationReader(context, reader, scene, context.Object("animations", a), place).Read());
   }
 }
 

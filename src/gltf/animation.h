@@ -6,8 +6,8 @@
 
 namespace facet::gltf {
 
-// Needs the scene's nodes and meshes. Channels that cannot move anything are left out with a warning; keys whose time
-// does not increase are dropped with one. Throws Error(InvalidInput) for wrong types and sizes.
+// Needs the scene's nodes and meshes. Channels that cannot be read or move nothing are left out with a warning; keys
+// whose time decreases are dropped with one.
 void ReadAnimations(Context& context, AccessorReader& reader, Scene& scene);
 
 }  // namespace facet::gltf

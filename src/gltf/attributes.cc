@@ -23,16 +23,22 @@ AccessorView AttributeSource::View(const std::string& semantic, int least_compon
   if (draco_ && draco_->attributes.count(semantic)) {
     view = draco_->attributes.at(semantic);
   } else {
-    if (reader_.Count(accessor) != vertex_count_) {
-      Fail(place, "has " + std::to_string(reader_.Count(accessor)) + " elements, and the primitive " +
-                      std::to_string(vertex_count_) + " vertices");
-    }
+    const std::size_t count = reader_.Count(accessor);
+    const std::string what =
+        "has " + std::to_string(count) + " elements, and the primitive " + std::to_string(vertex_count_) + " vertices";
+    if (count < vertex_count_) Fail(place, what);
+    if (count > vertex_count_) place.Warn(what);
     view = reader_.View(accessor);
   }
-  if (view.is_matrix || view.components < least_components || view.components > most_components) {
+  if (view.is_matrix || view.components < least_components) {
     Fail(place, "does not have " + std::to_string(least_components) +
                     (most_components > least_components ? " to " + std::to_string(most_components) : "") +
                     " components");
+  }
+  if (view.components > most_components) {
+    place.Warn("has " + std::to_string(view.components) + " components; the first " + std::to_string(most_components) +
+               " are read");
+    view.components = most_components;
   }
   return view;
 }
@@ -68,7 +74,7 @@ std::vector<glm::vec4> AttributeSource::Color(const std::string& semantic, float
   AccessorView view = View(semantic, 3, 4);
   const Place place(place_, semantic);
   if (view.type != ComponentType::F32 && !view.normalized) {
-    context_.Warn(place, "integers are not marked as normalized; they are read as if they were");
+    place.Warn("integers are not marked as normalized; they are read as if they were");
     view.normalized = true;
   }
   context_.Charge(range_.count, sizeof(glm::vec4), place);
@@ -91,7 +97,7 @@ std::vector<glm::vec4> AttributeSource::Weights(const std::string& semantic) {
       weight[c] = std::max(weight[c], 0.0f);
     }
   }
-  if (negative) context_.Warn(place, std::to_string(negative) + " negative weights were replaced by 0");
+  if (negative) place.Warn(std::to_string(negative) + " negative weights were replaced by 0");
   return out;
 }
 
@@ -111,7 +117,7 @@ std::vector<glm::u16vec4> AttributeSource::Joints(const std::string& semantic) {
   // Old exporters wrote floats and other integers; whatever fits is taken.
   std::vector<float> raw(range_.count * 4);
   reader_.ReadFloats(view, range_, 4, raw.data(), place);
-  context_.Warn(place, "joints are neither unsigned bytes nor unsigned shorts");
+  place.Warn("joints are neither unsigned bytes nor unsigned shorts");
   for (std::size_t i = 0; i < raw.size(); ++i) {
     if (!(raw[i] >= 0.0f && raw[i] <= 65535.0f)) Fail(place, "holds what is no joint index");
     out[i / 4][static_cast<int>(i % 4)] = static_cast<std::uint16_t>(raw[i]);
@@ -128,9 +134,21 @@ void AttributeSource::WarnOfOthers(bool is_target) {
     if ((uv >= 0 && uv < kMaxSets) || color == 0) continue;
     if (!is_target && ((joints >= 0 && joints < kMaxSets) || (weights >= 0 && weights < kMaxSets))) continue;
     const bool known = uv >= 0 || color >= 0 || (!is_target && (joints >= 0 || weights >= 0));
-    context_.Warn(Place(place_, semantic),
-                  known ? "ignored: facet does not read this set" : "ignored: unknown attribute");
+    Place(place_, semantic).Warn(known ? "ignored: facet does not read this set" : "ignored: unknown attribute");
   }
+}
+
+std::map<std::string, int> ReadAttributeList(Context& context, const Json& object, const Place& place,
+                                             const std::function<bool(const std::string&)>& is_needed) {
+  std::map<std::string, int> attributes;
+  for (const auto& item : object.items()) {
+    const std::string& semantic = item.key();
+    context.Try(is_needed(semantic), Place(place, semantic), "ignored", [&] {
+      const int accessor = IndexAt(object, semantic.c_str(), context.document.Count("accessors"), "accessors", place);
+      if (accessor >= 0) attributes.emplace(semantic, accessor);
+    });
+  }
+  return attributes;
 }
 
 }  // namespace facet::gltf

@@ -1,6 +1,7 @@
 // The attributes of one primitive, wherever they are stored, and the arrays of the Scene that they become.
 #pragma once
 
+#include <functional>
 #include <glm/glm.hpp>
 #include <map>
 #include <string>
@@ -26,7 +27,8 @@ class AttributeSource {
         place_(place) {}
 
   bool Has(const std::string& semantic) const { return attributes_.count(semantic) != 0; }
-  // Checked to have as many elements as the primitive has vertices, and between the two numbers of components.
+  // Checked to have as many elements as the primitive has vertices, and as many components as are needed; what there is
+  // beyond is left out with a warning.
   AccessorView View(const std::string& semantic, int least_components, int most_components);
 
   std::vector<glm::vec2> Vec2(const std::string& semantic);
@@ -49,6 +51,11 @@ class AttributeSource {
   Range range_;
   const Place& place_;
 };
+
+// The accessors of an object "attributes", or of a morph target, by semantic. An index that names none is an error
+// where `is_needed`(semantic), otherwise the attribute is left out with a warning.
+std::map<std::string, int> ReadAttributeList(Context& context, const Json& object, const Place& place,
+                                             const std::function<bool(const std::string&)>& is_needed);
 
 // The n of "NAME_n", or -1. Sets beyond kMaxSets are not read.
 inline constexpr int kMaxSets = 16;

@@ -1,87 +1,88 @@
 #include "gltf/document.h"
 
-#include <limits>
-
-#include "gltf/schema.h"
+#include <cctype>
 
 namespace facet::gltf {
 namespace {
 
-// What tinygltf 2.7 must not see. It would read buffers and pictures by itself, it recurses into extensions and narrows
-// their numbers to int, and builds of it that have Draco index buffers without a check.
-bool IsForTinygltf(const std::string& key, bool at_root) {
-  if (key == "extensions") return false;
-  return !at_root || (key != "buffers" && key != "images" && key != "extensionsUsed" && key != "extensionsRequired");
+constexpr const char* kLists[] = {"accessors", "animations", "bufferViews", "buffers", "cameras",
+                                  "images",    "materials",  "meshes",      "nodes",   "samplers",
+                                  "scenes",    "skins",      "textures"};
+
+[[noreturn]] void FailVersion(const Place& place, const std::string& version) {
+  Fail(place, "glTF " + version + " is not supported", "convert it to glTF 2.0", ErrorCode::Unsupported);
 }
 
-Json CopyCore(const Json& value, bool at_root) {
-  if (value.is_object()) {
-    Json copy = Json::object();
-    for (const auto& item : value.items()) {
-      if (IsForTinygltf(item.key(), at_root)) copy[item.key()] = CopyCore(item.value(), false);
-    }
-    return copy;
+// "2.0" as asset[key] says it, also where that is a number, or "2" or "2.0.1"; empty when absent.
+std::string ReadVersion(const Json& asset, const char* key, const Place& asset_place) {
+  const Json* value = Find(asset, key);
+  if (!value) return {};
+  const Place place(asset_place, key);
+  const std::string text = value->is_string() ? value->get<std::string>() : value->is_number() ? value->dump() : "";
+  const bool known = !text.empty() && std::isdigit(static_cast<unsigned char>(text[0])) && text.back() != '.' &&
+                     text.find_first_not_of("0123456789.") == std::string::npos && text.find("..") == std::string::npos;
+  if (!known) Fail(place, "is not a version such as \"2.0\"");
+  const std::size_t dot = text.find('.');
+  const std::string version = dot == std::string::npos ? text + ".0" : text.substr(0, text.find('.', dot + 1));
+  if (!value->is_string() || version != text) {
+    place.Warn("is not a version such as \"2.0\"; it is read as " + version);
   }
-  if (value.is_array()) {
-    Json copy = Json::array();
-    copy.get_ref<Json::array_t&>().reserve(value.size());
-    for (const Json& element : value) copy.push_back(CopyCore(element, false));
-    return copy;
-  }
-  return value;
+  return version;
 }
 
-std::string FirstLine(const std::string& text) { return text.substr(0, text.find('\n')); }
+std::string CheckVersion(const Json& root, const Place& place) {
+  // glTF 1.0 had objects in place of lists, and "asset" was optional.
+  const Json* meshes = Find(root, "meshes");
+  const bool looks_like_first = meshes && meshes->is_object();
+  const Json* asset = Find(root, "asset");
+  if (!asset || !asset->is_object()) {
+    if (looks_like_first) FailVersion(place, "1.0");
+    Fail(place, "\"asset\" is missing: not a glTF 2.0 file", "convert it to glTF 2.0");
+  }
+  const Place asset_place(place, "asset");
+  if (Find(root, "geometricError")) {
+    Fail(place, "a 3D Tiles tileset, not a glTF file", "name one of the tiles that it lists");
+  }
+  const std::string version = ReadVersion(*asset, "version", asset_place);
+  if (version.empty() && looks_like_first) FailVersion(place, "1.0");
+  if (version.empty()) Fail(asset_place, "\"version\" is missing");
+  if (version.substr(0, version.find('.')) != "2") FailVersion(Place(asset_place, "version"), version);
+  std::string minimum;
+  try {
+    minimum = ReadVersion(*asset, "minVersion", asset_place);
+  } catch (const Error& error) {
+    Place(asset_place, "minVersion").Warn("ignored", error);
+  }
+  if (!minimum.empty() && minimum != "2.0") {
+    Fail(Place(asset_place, "minVersion"), "glTF " + minimum + " is required", "convert it to glTF 2.0",
+         ErrorCode::Unsupported);
+  }
+  return version;
+}
 
 }  // namespace
 
 Document ParseDocument(std::string_view json, const Place& place) {
   Document document;
   document.root = ParseJson(json, place);
-  CheckSchema(document.root, place);
-
-  Json core = CopyCore(document.root, true);
-  // tinygltf refuses index accessors without a buffer view, which is what Draco's are. They get a view past the end.
-  const std::size_t view_count = core.contains("bufferViews") ? core["bufferViews"].size() : 0;
-  core["bufferViews"].push_back(Json{{"buffer", 0}, {"byteLength", 1}});
-  if (core.contains("accessors")) {
-    for (Json& accessor : core["accessors"]) {
-      if (!accessor.contains("bufferView")) accessor["bufferView"] = view_count;
+  CheckObject(document.root, place);
+  document.version = CheckVersion(document.root, place);
+  if (document.version != "2.0") {
+    Place(Place(place, "asset"), "version").Warn("glTF " + document.version + " is read as 2.0");
+  }
+  for (const char* list : kLists) {
+    const auto found = document.root.find(list);
+    if (found == document.root.end()) continue;
+    if (LenientArray(document.root, list, place) == nullptr) {
+      document.root.erase(found);
+      continue;
+    }
+    const Place list_place(place, list);
+    for (std::size_t i = 0; i < found->size(); ++i) {
+      if ((*found)[i].is_object()) continue;
+      (*found)[i] = LenientElement((*found)[i], Place(list_place, i));
     }
   }
-  const std::string text = core.dump();
-  if (text.size() > std::numeric_limits<unsigned>::max()) {
-    Fail(place, "the JSON is larger than 4 GiB", {}, ErrorCode::Unsupported);
-  }
-  tinygltf::TinyGLTF parser;
-  parser.RemoveImageLoader();
-  std::string error, warning;
-  if (!parser.LoadASCIIFromString(&document.core, &error, &warning, text.data(), static_cast<unsigned>(text.size()),
-                                  "")) {
-    Fail(place, "not a valid glTF file: " + FirstLine(error));
-  }
-  document.core.bufferViews.pop_back();
-  for (auto& accessor : document.core.accessors) {
-    if (accessor.bufferView == static_cast<int>(view_count)) accessor.bufferView = -1;
-  }
-  // Whatever the parser drops without a word would shift the indices of what follows.
-  const auto same = [&](const char* list, std::size_t count) {
-    const Json* array = Find(document.root, list);
-    if ((array ? array->size() : 0) != count) {
-      Fail(Place(place, list), "the parser lost some of these", {}, ErrorCode::Internal);
-    }
-  };
-  same("bufferViews", document.core.bufferViews.size());
-  same("accessors", document.core.accessors.size());
-  same("meshes", document.core.meshes.size());
-  same("nodes", document.core.nodes.size());
-  same("materials", document.core.materials.size());
-  same("textures", document.core.textures.size());
-  same("samplers", document.core.samplers.size());
-  same("cameras", document.core.cameras.size());
-  same("skins", document.core.skins.size());
-  same("animations", document.core.animations.size());
-  same("scenes", document.core.scenes.size());
   return document;
 }
 

@@ -1,28 +1,26 @@
-// A glTF file as text made into values: checked JSON, and tinygltf's model of its core.
+// A glTF file's JSON.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
-
-// Of tinygltf only the parser is used: no picture decoding, no file access.
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wshadow"
-#pragma GCC diagnostic ignored "-Wconversion"
-#include <tiny_gltf.h>
-#pragma GCC diagnostic pop
 
 #include "gltf/json_fields.h"
 
 namespace facet::gltf {
 
+// The lists at the root hold objects; what these hold is checked where it is read.
 struct Document {
-  // Obeys CheckSchema. Extensions, buffers and pictures are read from here.
   Json root;
-  // The core: the same objects under the same indices, without buffers, images and extensions.
-  tinygltf::Model core;
+  std::string version;  // asset.version, "2.0" or a later one that can be read as 2.0
+
+  std::size_t Count(const char* list) const {
+    const Json* array = Find(root, list);
+    return array ? array->size() : 0;
+  }
 };
 
-// Throws Error(InvalidInput, Unsupported).
+// Throws Error(InvalidInput), Error(Unsupported) for another version of glTF.
 Document ParseDocument(std::string_view json, const Place& place);
 
 }  // namespace facet::gltf

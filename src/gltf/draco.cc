@@ -95,13 +95,12 @@ AccessorView CopyAttribute(Context& context, const draco::Mesh& mesh, const drac
 
 }  // namespace
 
-DracoMesh DecodeDraco(Context& context, BufferStore& buffers, const Json& extension,
-                      const tinygltf::Primitive& primitive, const Place& place) {
-  const int view_index =
-      RequireIndex(extension, "bufferView", context.document.core.bufferViews.size(), "bufferViews", place);
-  const Json* attributes = ObjectAt(extension, "attributes", place);
-  RequireMember(extension, "attributes", place);
-  const Bytes& packed = buffers.View(view_index);
+DracoMesh DecodeDraco(Context& context, BufferStore& buffers, AccessorReader& reader, const Json& extension,
+                      const std::function<bool(const std::string&)>& is_needed, std::map<std::string, int>& attributes,
+                      const Place& place) {
+  const Json& packed_attributes = RequireObject(extension, "attributes", place);
+  const Bytes& packed =
+      buffers.Read(RequireIndex(extension, "bufferView", context.document.Count("bufferViews"), "bufferViews", place));
   CheckClaims(packed, place);
 
   draco::DecoderBuffer buffer;
@@ -135,17 +134,23 @@ DracoMesh DecodeDraco(Context& context, BufferStore& buffers, const Json& extens
   }
 
   const Place attributes_place(place, "attributes");
-  for (const auto& item : attributes->items()) {
-    const Place attribute_place(attributes_place, item.key());
-    const auto accessor = primitive.attributes.find(item.key());
-    if (accessor == primitive.attributes.end()) Fail(attribute_place, "is not an attribute of the primitive");
-    const int id = AsIndex(item.value(), std::size_t(1) << 31, "Draco attributes", attribute_place);
-    const draco::PointAttribute* attribute = mesh->GetAttributeByUniqueId(static_cast<std::uint32_t>(id));
-    if (!attribute) Fail(attribute_place, "no Draco attribute has the unique id " + std::to_string(id));
-    AccessorView view = CopyAttribute(context, *mesh, *attribute, attribute_place);
-    view.normalized = context.document.core.accessors[static_cast<std::size_t>(accessor->second)].normalized &&
-                      view.type != ComponentType::F32;
-    out.attributes.emplace(item.key(), std::move(view));
+  for (const auto& item : packed_attributes.items()) {
+    const std::string& semantic = item.key();
+    const Place attribute_place(attributes_place, semantic);
+    const auto accessor = attributes.find(semantic);
+    if (accessor == attributes.end()) {
+      attribute_place.Warn("ignored: is not an attribute of the primitive");
+      continue;
+    }
+    const bool is_read = context.Try(is_needed(semantic), attribute_place, "ignored", [&] {
+      const int id = AsIndex(item.value(), std::size_t(1) << 31, "Draco attributes", attribute_place);
+      const draco::PointAttribute* attribute = mesh->GetAttributeByUniqueId(static_cast<std::uint32_t>(id));
+      if (!attribute) Fail(attribute_place, "no Draco attribute has the unique id " + std::to_string(id));
+      AccessorView view = CopyAttribute(context, *mesh, *attribute, attribute_place);
+      view.normalized = reader.Describe(accessor->second).normalized && view.type != ComponentType::F32;
+      out.attributes.emplace(semantic, std::move(view));
+    });
+    if (!is_read) attributes.erase(accessor);
   }
   return out;
 }

@@ -18,17 +18,24 @@ bool IsSupported(const std::string& extension) {
 void ReadExtensions(Context& context) {
   std::map<std::string, bool> required;
   for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
-    const Json* names = Find(context.document.root, list);
-    if (!names) continue;
-    for (const Json& name : *names) required[name.get<std::string>()] |= std::string(list) == "extensionsRequired";
+    const Json* names = LenientArray(context.document.root, list, context.place);
+    const Place list_place(context.place, list);
+    for (std::size_t i = 0; names && i < names->size(); ++i) {
+      const Json& name = (*names)[i];
+      if (name.is_string()) {
+        required[name.get<std::string>()] |= std::string(list) == "extensionsRequired";
+      } else {
+        Place(list_place, i).Warn("ignored: is not a string");
+      }
+    }
   }
   std::string missing;
   for (const auto& [name, is_required] : required) {
     const bool supported = IsSupported(name);
     context.report.extensions.push_back({name, is_required, supported});
     if (supported) continue;
-    context.Warn(Place(context.place, is_required ? "extensionsRequired" : "extensionsUsed"),
-                 "ignored: " + name + " is not supported");
+    Place(context.place, is_required ? "extensionsRequired" : "extensionsUsed")
+        .Warn("ignored: " + name + " is not supported");
     if (is_required) missing += (missing.empty() ? "" : ", ") + name;
   }
   if (!missing.empty() && !context.options.ignore_required_extensions) {

@@ -1,6 +1,7 @@
 #include "gltf/json_fields.h"
 
-#include <cmath>
+#include <algorithm>
+#include <cstdint>
 #include <limits>
 
 namespace facet::gltf {
@@ -8,89 +9,34 @@ namespace {
 
 constexpr std::size_t kMaxInteger = std::size_t(1) << 53;  // what JSON's numbers can say exactly
 
-void CheckDepth(std::string_view text, const Place& place) {
-  int depth = 0;
-  bool in_string = false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    if (in_string) {
-      if (c == '\\') ++i;
-      if (c == '"') in_string = false;
-    } else if (c == '"') {
-      in_string = true;
-    } else if (c == '[' || c == '{') {
-      if (++depth > kMaxDepth) Fail(place, "JSON is nested deeper than " + std::to_string(kMaxDepth) + " levels");
-    } else if (c == ']' || c == '}') {
-      --depth;
-    }
-  }
-}
-
-void Normalise(Json& value) {
-  if (value.is_object()) {
-    value.erase("extras");
-    for (auto& member : value) Normalise(member);
-  } else if (value.is_array()) {
-    for (auto& element : value) Normalise(element);
-  } else if (value.is_number_float()) {
-    const double number = value.get<double>();
-    if (number == std::floor(number) && std::fabs(number) < double(kMaxInteger)) {
-      if (number >= 0) {
-        value = static_cast<std::uint64_t>(number);
-      } else {
-        value = static_cast<std::int64_t>(number);
-      }
-    }
-  }
-}
-
-std::string OneLine(std::string text) {
-  for (char& c : text) {
-    if (static_cast<unsigned char>(c) < 0x20) c = ' ';
-  }
-  return text;
-}
-
 [[noreturn]] void FailMissing(const char* key, const Place& place) {
-  Fail(place, "\"" + std::string(key) + "\" is missing");
+  Fail(place, '"' + std::string(key) + "\" is missing");
 }
 
 [[noreturn]] void FailType(const char* key, const char* expected, const Place& place) {
   Fail(Place(place, key), std::string("is not ") + expected);
 }
 
-}  // namespace
-
-Json ParseJson(std::string_view text, const Place& place) {
-  CheckDepth(text, place);
+// What `read` returns, or nothing where it throws.
+template <class Read>
+auto Leniently(const Read& read, const char* key, const Place& place) -> decltype(read()) {
   try {
-    // GLB pads the chunk with spaces, and some exporters with zeros.
-    while (!text.empty() && text.back() == '\0') text.remove_suffix(1);
-    Json root = Json::parse(text.begin(), text.end());
-    Normalise(root);
-    return root;
-  } catch (const Json::exception& error) {
-    std::string message = error.what();
-    constexpr std::size_t kEnough = 200;  // the parser quotes the offending text, which may be long
-    if (message.size() > kEnough) message = message.substr(0, kEnough) + "...";
-    for (char& c : message) {
-      if (static_cast<unsigned char>(c) >= 0x80) c = '?';  // a sequence may have been cut, or be the very mistake
-    }
-    Fail(place, "not a glTF file: " + OneLine(message), "is it complete, and glTF 2.0?");
+    return read();
+  } catch (const Error& error) {
+    Place(place, key).Warn("ignored", error);
+    return {};
   }
 }
+
+}  // namespace
 
 const Json* Find(const Json& object, const char* key) {
   const auto it = object.find(key);
   return it == object.end() ? nullptr : &*it;
 }
 
-void RequireObject(const Json& value, const Place& place) {
+void CheckObject(const Json& value, const Place& place) {
   if (!value.is_object()) Fail(place, "is not an object");
-}
-
-void RequireMember(const Json& object, const char* key, const Place& place) {
-  if (!Find(object, key)) FailMissing(key, place);
 }
 
 const Json* ObjectAt(const Json& object, const char* key, const Place& place) {
@@ -147,7 +93,23 @@ std::string RequireString(const Json& object, const char* key, const Place& plac
   return *std::move(value);
 }
 
-std::string NameOf(const Json& object, const Place& place) { return StringAt(object, "name", place).value_or(""); }
+const Json& RequireArray(const Json& object, const char* key, const Place& place) {
+  const Json* value = ArrayAt(object, key, place);
+  if (!value) FailMissing(key, place);
+  return *value;
+}
+
+const Json& RequireObject(const Json& object, const char* key, const Place& place) {
+  const Json* value = ObjectAt(object, key, place);
+  if (!value) FailMissing(key, place);
+  return *value;
+}
+
+bool IsAbsent(const Json& index, const Place& place) {
+  const bool is_minus_one = index.is_number_integer() && index.get<std::int64_t>() == -1;
+  if (is_minus_one || index.is_null()) place.Warn(index.dump() + " is read as absent");
+  return is_minus_one || index.is_null();
+}
 
 int AsIndex(const Json& value, std::size_t count, const char* list, const Place& place) {
   if (!value.is_number_unsigned()) Fail(place, "is not an index");
@@ -160,38 +122,30 @@ int AsIndex(const Json& value, std::size_t count, const char* list, const Place&
 
 int IndexAt(const Json& object, const char* key, std::size_t count, const char* list, const Place& place) {
   const Json* value = Find(object, key);
-  return value ? AsIndex(*value, count, list, Place(place, key)) : -1;
+  if (!value || IsAbsent(*value, Place(place, key))) return -1;
+  return AsIndex(*value, count, list, Place(place, key));
 }
 
 int RequireIndex(const Json& object, const char* key, std::size_t count, const char* list, const Place& place) {
-  RequireMember(object, key, place);
-  return IndexAt(object, key, count, list, place);
+  const int index = IndexAt(object, key, count, list, place);
+  if (index < 0) FailMissing(key, place);
+  return index;
 }
 
-std::vector<int> IndicesAt(const Json& object, const char* key, std::size_t count, const char* list,
-                           const Place& place) {
-  std::vector<int> indices;
-  if (const Json* array = ArrayAt(object, key, place)) {
-    const Place array_place(place, key);
-    indices.reserve(array->size());
-    for (const Json& value : *array) {
-      indices.push_back(AsIndex(value, count, list, Place(array_place, indices.size())));
-    }
-  }
-  return indices;
-}
-
-std::vector<double> NumbersAt(const Json& object, const char* key, std::size_t size, const Place& place) {
+std::vector<double> NumbersAt(const Json& object, const char* key, std::size_t size, const Place& place,
+                              std::size_t least) {
   std::vector<double> numbers;
   const Json* array = ArrayAt(object, key, place);
   if (!array) return numbers;
-  if (size != 0 && array->size() != size) {
-    Fail(Place(place, key), "has " + std::to_string(array->size()) + " numbers instead of " + std::to_string(size));
+  const Place array_place(place, key);
+  if (array->size() != size) {
+    const std::string what = "has " + std::to_string(array->size()) + " numbers instead of " + std::to_string(size);
+    if (array->size() < (least > 0 ? least : size)) Fail(array_place, what);
+    array_place.Warn(array->size() > size ? what + "; the first are read" : what);
   }
-  numbers.reserve(array->size());
-  for (const Json& value : *array) {
-    if (!value.is_number()) Fail(Place(Place(place, key), numbers.size()), "is not a number");
-    numbers.push_back(value.get<double>());
+  for (std::size_t i = 0; i < array->size() && i < size; ++i) {
+    if (!(*array)[i].is_number()) Fail(Place(array_place, i), "is not a number");
+    numbers.push_back((*array)[i].get<double>());
   }
   return numbers;
 }
@@ -206,9 +160,70 @@ std::optional<int> OneOfAt(const Json& object, const char* key, std::initializer
   Fail(Place(place, key), std::to_string(*value) + " is not a value that glTF knows");
 }
 
+const Json* LenientObject(const Json& object, const char* key, const Place& place) {
+  return Leniently([&] { return ObjectAt(object, key, place); }, key, place);
+}
+
+const Json* LenientArray(const Json& object, const char* key, const Place& place) {
+  return Leniently([&] { return ArrayAt(object, key, place); }, key, place);
+}
+
+std::optional<double> LenientNumber(const Json& object, const char* key, const Place& place) {
+  return Leniently([&] { return NumberAt(object, key, place); }, key, place);
+}
+
+std::optional<std::size_t> LenientSize(const Json& object, const char* key, const Place& place) {
+  return Leniently([&] { return SizeAt(object, key, place); }, key, place);
+}
+
+std::optional<std::string> LenientString(const Json& object, const char* key, const Place& place) {
+  return Leniently([&] { return StringAt(object, key, place); }, key, place);
+}
+
+std::optional<bool> LenientBool(const Json& object, const char* key, const Place& place) {
+  return Leniently([&] { return BoolAt(object, key, place); }, key, place);
+}
+
+int LenientIndex(const Json& object, const char* key, std::size_t count, const char* list, const Place& place) {
+  const auto index = Leniently([&] { return std::optional(IndexAt(object, key, count, list, place)); }, key, place);
+  return index.value_or(-1);
+}
+
+std::vector<double> LenientNumbers(const Json& object, const char* key, std::size_t size, const Place& place,
+                                   std::size_t least) {
+  return Leniently([&] { return NumbersAt(object, key, size, place, least); }, key, place);
+}
+
+std::vector<float> LenientFloats(const Json& object, const char* key, const Place& place) {
+  const Json* array = LenientArray(object, key, place);
+  if (!array) return {};
+  std::vector<float> floats;
+  for (const double number : LenientNumbers(object, key, array->size(), place)) floats.push_back(ToFloat(number));
+  return floats;
+}
+
+std::optional<int> LenientOneOf(const Json& object, const char* key, std::initializer_list<int> choices,
+                                const Place& place) {
+  return Leniently([&] { return OneOfAt(object, key, choices, place); }, key, place);
+}
+
+std::string NameOf(const Json& object, const Place& place) { return LenientString(object, "name", place).value_or(""); }
+
 const Json* ExtensionOf(const Json& object, const char* name, const Place& place) {
-  const Json* extensions = ObjectAt(object, "extensions", place);
-  return extensions ? ObjectAt(*extensions, name, Place(place, "extensions")) : nullptr;
+  const Json* extensions = LenientObject(object, "extensions", place);
+  return extensions ? LenientObject(*extensions, name, Place(place, "extensions")) : nullptr;
+}
+
+float ToFloat(double value) {
+  constexpr double kLargest = std::numeric_limits<float>::max();
+  return static_cast<float>(std::min(std::max(value, -kLargest), kLargest));
+}
+
+const Json& LenientElement(const Json& element, const Place& place) {
+  static const Json empty = Json::object();
+  if (element.is_object()) return element;
+  place.Warn("is not an object; an empty one is read");
+  return empty;
 }
 
 }  // namespace facet::gltf

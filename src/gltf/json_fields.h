@@ -1,24 +1,19 @@
-// Typed access to JSON members that a hostile file wrote: each call either returns what it promises or throws
-// Error(InvalidInput) with the place. A member that is absent is no error unless the name says Require.
+// Typed access to JSON members that anyone may have written. A member that is absent is no error unless the name says
+// Require. One that is not what it should be:
+// - XAt and RequireX throw Error(InvalidInput) with the place;
+// - LenientX leaves it out with a warning, as if it were absent.
+// What facet needs to know where things stand is asked for in the first way, how they look in the second.
 #pragma once
 
 #include <cstddef>
 #include <initializer_list>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "gltf/place.h"
+#include "gltf/json_text.h"
 
 namespace facet::gltf {
-
-using Json = nlohmann::json;
-
-// Parses; refuses nesting deeper than kMaxDepth before any parser recurses into it. Numbers without a fraction become
-// integers ("2.0" is the integer 2 in glTF); members named "extras" are removed.
-inline constexpr int kMaxDepth = 128;
-Json ParseJson(std::string_view text, const Place& place);
 
 const Json* Find(const Json& object, const char* key);  // null when absent
 
@@ -30,25 +25,47 @@ std::optional<std::string> StringAt(const Json& object, const char* key, const P
 std::optional<bool> BoolAt(const Json& object, const char* key, const Place& place);
 std::size_t RequireSize(const Json& object, const char* key, const Place& place);
 std::string RequireString(const Json& object, const char* key, const Place& place);
-std::string NameOf(const Json& object, const Place& place);  // "name", or empty
+const Json& RequireArray(const Json& object, const char* key, const Place& place);
+const Json& RequireObject(const Json& object, const char* key, const Place& place);
+void CheckObject(const Json& value, const Place& place);
 
-// An index into a list of `count` things, called `list` in messages; -1 when absent.
+// True for null and -1, which exporters write for an index that there is not; with a warning.
+bool IsAbsent(const Json& index, const Place& place);
+
+// An index into a list of `count` things, called `list` in messages; -1 when absent, or -1 in the file (a warning).
 int IndexAt(const Json& object, const char* key, std::size_t count, const char* list, const Place& place);
 int RequireIndex(const Json& object, const char* key, std::size_t count, const char* list, const Place& place);
-std::vector<int> IndicesAt(const Json& object, const char* key, std::size_t count, const char* list,
-                           const Place& place);
 int AsIndex(const Json& value, std::size_t count, const char* list, const Place& place);
 
-// Exactly `size` numbers, or any number of them when `size` is 0; empty when absent.
-std::vector<double> NumbersAt(const Json& object, const char* key, std::size_t size, const Place& place);
+// `size` numbers; empty when absent. Too many are cut off with a warning; too few are an error, unless there are at
+// least `least`: then a warning.
+std::vector<double> NumbersAt(const Json& object, const char* key, std::size_t size, const Place& place,
+                              std::size_t least = 0);
 
 // One of the numbers listed; nothing when absent.
 std::optional<int> OneOfAt(const Json& object, const char* key, std::initializer_list<int> choices, const Place& place);
 
-void RequireObject(const Json& value, const Place& place);
-void RequireMember(const Json& object, const char* key, const Place& place);
+const Json* LenientObject(const Json& object, const char* key, const Place& place);
+const Json* LenientArray(const Json& object, const char* key, const Place& place);
+std::optional<double> LenientNumber(const Json& object, const char* key, const Place& place);
+std::optional<std::size_t> LenientSize(const Json& object, const char* key, const Place& place);
+std::optional<std::string> LenientString(const Json& object, const char* key, const Place& place);
+std::optional<bool> LenientBool(const Json& object, const char* key, const Place& place);
+int LenientIndex(const Json& object, const char* key, std::size_t count, const char* list, const Place& place);
+std::vector<double> LenientNumbers(const Json& object, const char* key, std::size_t size, const Place& place,
+                                   std::size_t least = 0);
+std::vector<float> LenientFloats(const Json& object, const char* key, const Place& place);  // any number of them
+std::optional<int> LenientOneOf(const Json& object, const char* key, std::initializer_list<int> choices,
+                                const Place& place);
+std::string NameOf(const Json& object, const Place& place);  // "name", or empty
 
-// object.extensions.NAME, which must be an object; null when absent.
+// object.extensions.NAME, an object; null when absent. Lenient.
 const Json* ExtensionOf(const Json& object, const char* name, const Place& place);
+
+// The nearest float; what is too large becomes the largest.
+float ToFloat(double value);
+
+// As an object to read: what is none is an empty one, with a warning.
+const Json& LenientElement(const Json& element, const Place& place);
 
 }  // namespace facet::gltf

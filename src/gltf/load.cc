@@ -1,5 +1,6 @@
 #include "facet/load.h"
 
+#include <algorithm>
 #include <new>
 
 #include "base/float_environment.h"
@@ -21,79 +22,101 @@ void ReadVariants(Context& context, Scene& scene) {
   if (!extension) return;
   const Place extensions_place(context.place, "extensions");
   const Place extension_place(extensions_place, kVariants);
-  const Json* list = ArrayAt(*extension, "variants", extension_place);
+  const Json* list = LenientArray(*extension, "variants", extension_place);
   if (!list) return;
   const Place list_place(extension_place, "variants");
   for (const Json& variant : *list) {
     const Place place(list_place, scene.variants.size());
-    RequireObject(variant, place);
-    scene.variants.push_back(NameOf(variant, place));
+    scene.variants.push_back(NameOf(LenientElement(variant, place), place));
   }
 }
 
-void ReadMeshes(Context& context, BufferStore& buffers, AccessorReader& reader, Scene& scene) {
+// `read` gets the file's index of each primitive that the mesh has.
+void ReadPrimitives(Context& context, BufferStore& buffers, AccessorReader& reader, const Json& object,
+                    const MeshUse& use, const Place& place, Mesh& mesh, std::vector<std::size_t>& read) {
+  const Json& primitives = RequireArray(object, "primitives", place);
+  const Place list_place(place, "primitives");
+  for (std::size_t p = 0; p < primitives.size(); ++p) {
+    const Place primitive_place(list_place, p);
+    if (IsAbsent(primitives[p], primitive_place)) continue;
+    context.Try(use.shown, primitive_place, "ignored", [&] {
+      CheckObject(primitives[p], primitive_place);
+      auto primitive = ReadPrimitive(context, buffers, reader, primitives[p], use, primitive_place);
+      if (!primitive) return;
+      mesh.primitives.push_back(*std::move(primitive));
+      read.push_back(p);
+    });
+  }
+}
+
+void ReadMeshes(Context& context, BufferStore& buffers, AccessorReader& reader, const Shown& shown, Scene& scene) {
   const Place list_place(context.place, "meshes");
-  for (std::size_t m = 0; m < context.document.core.meshes.size(); ++m) {
-    const auto& from = context.document.core.meshes[m];
+  context.primitives_read.resize(shown.meshes.size());
+  for (std::size_t m = 0; m < shown.meshes.size(); ++m) {
+    const Json& object = context.Object("meshes", m);
     const Place place(list_place, m);
     Mesh mesh;
-    mesh.name = from.name;
+    mesh.name = NameOf(object, place);
+    context.Try(shown.meshes[m].shown, place, "ignored", [&] {
+      ReadPrimitives(context, buffers, reader, object, shown.meshes[m], place, mesh, context.primitives_read[m]);
+    });
     std::size_t most_targets = 0;
-    for (std::size_t p = 0; p < from.primitives.size(); ++p) {
-      auto primitive = ReadPrimitive(context, buffers, reader, m, p);
-      if (!primitive) continue;
-      most_targets = std::max(most_targets, primitive->targets.size());
-      mesh.primitives.push_back(*std::move(primitive));
-    }
+    for (const Primitive& primitive : mesh.primitives) most_targets = std::max(most_targets, primitive.targets.size());
     for (Primitive& primitive : mesh.primitives) {
       if (primitive.targets.size() == most_targets) continue;
-      context.Warn(place, "its primitives do not have the same number of morph targets");
+      place.Warn("its primitives do not have the same number of morph targets");
       primitive.targets.resize(most_targets);
     }
-    for (const double weight : from.weights) mesh.weights.push_back(static_cast<float>(weight));
+    mesh.weights = LenientFloats(object, "weights", place);
     if (!mesh.weights.empty() && mesh.weights.size() != most_targets) {
-      context.Warn(Place(place, "weights"), "has " + std::to_string(mesh.weights.size()) + " numbers for " +
-                                                std::to_string(most_targets) + " morph targets");
+      Place(place, "weights")
+          .Warn("has " + std::to_string(mesh.weights.size()) + " numbers for " + std::to_string(most_targets) +
+                " morph targets");
     }
     mesh.weights.resize(most_targets, 0.0f);
     scene.meshes.push_back(std::move(mesh));
   }
 }
 
+void ReadAsset(Context& context) {
+  const Json& asset = context.document.root["asset"];
+  const Place place(context.place, "asset");
+  context.report.generator = LenientString(asset, "generator", place).value_or("");
+  context.report.copyright = LenientString(asset, "copyright", place).value_or("");
+  context.report.version = context.document.version;
+}
+
 LoadedScene Load(const std::filesystem::path& path, const LoadOptions& options) {
   Context context(path, path.filename().string(), options);
   const Bytes file = ReadWholeFile(path);
   context.report.file_bytes = file.size;
-  const Container container = OpenContainer(file, context.file_name, context.report.warnings);
+  const Container container = OpenContainer(file, context.place);
   context.document = ParseDocument(container.json, context.place);
-  const auto& asset = context.document.core.asset;
-  context.report.generator = asset.generator;
-  context.report.copyright = asset.copyright;
-  context.report.version = asset.version;
-  if (asset.version != "2.0") {
-    context.WarnLine("asset.version: glTF " + asset.version + " is read as 2.0");
-  }
+  ReadAsset(context);
   ReadExtensions(context);
 
   LoadedScene loaded;
   Scene& scene = loaded.scene;
   BufferStore buffers(context, container.bin);
   AccessorReader reader(context, buffers);
-  ReadImages(context, buffers, scene);
-  ReadTextures(context, scene);
+  const Shown shown = ReadNodeTree(context, scene);
+  ReadTextures(context, ReadImages(context, buffers, scene), scene);
   ReadMaterials(context, scene);
   ReadVariants(context, scene);
-  ReadMeshes(context, buffers, reader, scene);
-  ReadSkins(context, reader, scene);
-  ReadCameras(context, scene);
+  ReadMeshes(context, buffers, reader, shown, scene);
+  ReadSkins(context, reader, shown, scene);
+  const std::vector<bool> usable_cameras = ReadCameras(context, scene);
   ReadLights(context, scene);
-  ReadNodes(context, reader, scene);
+  ReadNodes(context, reader, shown, usable_cameras, scene);
   ReadAnimations(context, reader, scene);
+  reader.CheckUnused();
+  buffers.CheckUnused();
   try {
     ValidateScene(scene);
   } catch (const Error& error) {
     throw Error(error.code(), error.message(), context.file_name + ": " + error.where(), error.hint());
   }
+  context.report.warnings = context.warnings.Lines();
   loaded.report = std::move(context.report);
   return loaded;
 }

@@ -7,95 +7,103 @@
 namespace facet::gltf {
 namespace {
 
-float ToFloat(double value) {
-  constexpr double kLargest = std::numeric_limits<float>::max();
-  return static_cast<float>(std::min(std::max(value, -kLargest), kLargest));
-}
-
 class MaterialReader {
  public:
-  MaterialReader(Context& context, const Json& object, const Place& place)
-      : context_(context), object_(object), place_(place) {}
+  MaterialReader(const Document& document, const Json& object, const Place& place)
+      : texture_count_(document.Count("textures")), object_(object), place_(place) {}
 
-  Material Read(const tinygltf::Material& from) {
+  Material Read() const {
     Material out;
-    out.name = from.name;
-    const auto& pbr = from.pbrMetallicRoughness;
-    const Json* pbr_object = ObjectAt(object_, "pbrMetallicRoughness", place_);
-    const Place pbr_place(place_, "pbrMetallicRoughness");
-    for (int c = 0; c < 4; ++c) {
-      out.base_color_factor[c] =
-          Clamp(pbr.baseColorFactor[static_cast<std::size_t>(c)], 1.0, Place(pbr_place, "baseColorFactor"));
-    }
-    out.metallic_factor = Clamp(pbr.metallicFactor, 1.0, Place(pbr_place, "metallicFactor"));
-    out.roughness_factor = Clamp(pbr.roughnessFactor, 1.0, Place(pbr_place, "roughnessFactor"));
-    if (pbr_object) {
-      out.base_color_texture = Ref(*pbr_object, "baseColorTexture", pbr_place);
-      out.metallic_roughness_texture = Ref(*pbr_object, "metallicRoughnessTexture", pbr_place);
+    out.name = NameOf(object_, place_);
+    if (const Json* pbr = LenientObject(object_, "pbrMetallicRoughness", place_)) {
+      const Place pbr_place(place_, "pbrMetallicRoughness");
+      // An opaque colour is often written without its alpha.
+      const auto base_color = LenientNumbers(*pbr, "baseColorFactor", 4, pbr_place, 3);
+      for (std::size_t c = 0; c < base_color.size(); ++c) {
+        out.base_color_factor[static_cast<int>(c)] = Clamp(base_color[c], 1.0, Place(pbr_place, "baseColorFactor"));
+      }
+      out.metallic_factor = Factor(*pbr, "metallicFactor", 1.0, 1.0, pbr_place);
+      out.roughness_factor = Factor(*pbr, "roughnessFactor", 1.0, 1.0, pbr_place);
+      out.base_color_texture = Ref(*pbr, "baseColorTexture", pbr_place);
+      out.metallic_roughness_texture = Ref(*pbr, "metallicRoughnessTexture", pbr_place);
     }
     out.normal_texture = Ref(object_, "normalTexture", place_);
-    out.normal_scale = ToFloat(from.normalTexture.scale);
+    if (const Json* info = LenientObject(object_, "normalTexture", place_)) {
+      out.normal_scale = ToFloat(LenientNumber(*info, "scale", Place(place_, "normalTexture")).value_or(1.0));
+    }
     out.occlusion_texture = Ref(object_, "occlusionTexture", place_);
-    out.occlusion_strength = Clamp(from.occlusionTexture.strength, 1.0, Place(place_, "occlusionTexture"));
+    if (const Json* info = LenientObject(object_, "occlusionTexture", place_)) {
+      out.occlusion_strength = Factor(*info, "strength", 1.0, 1.0, Place(place_, "occlusionTexture"));
+    }
     out.emissive_texture = Ref(object_, "emissiveTexture", place_);
-    for (std::size_t c = 0; c < from.emissiveFactor.size() && c < 3; ++c) {
+    const auto emissive = LenientNumbers(object_, "emissiveFactor", 3, place_);
+    for (std::size_t c = 0; c < emissive.size(); ++c) {
       // Above 1 the core specification forbids, but exporters older than KHR_materials_emissive_strength wrote it.
-      out.emissive_factor[static_cast<int>(c)] =
-          Clamp(from.emissiveFactor[c], std::numeric_limits<double>::infinity(), Place(place_, "emissiveFactor"));
+      out.emissive_factor[static_cast<int>(c)] = Clamp(emissive[c], kUnbounded, Place(place_, "emissiveFactor"));
     }
-    if (from.alphaMode == "MASK") {
+    const std::string alpha_mode = LenientString(object_, "alphaMode", place_).value_or("OPAQUE");
+    if (alpha_mode == "MASK") {
       out.alpha_mode = AlphaMode::Mask;
-    } else if (from.alphaMode == "BLEND") {
+    } else if (alpha_mode == "BLEND") {
       out.alpha_mode = AlphaMode::Blend;
-    } else if (from.alphaMode != "OPAQUE") {
-      context_.Warn(Place(place_, "alphaMode"), "\"" + from.alphaMode + "\" is unknown; OPAQUE is used");
+    } else if (alpha_mode != "OPAQUE") {
+      Place(place_, "alphaMode").Warn("\"" + alpha_mode + "\" is unknown; OPAQUE is used");
     }
-    out.alpha_cutoff = Clamp(from.alphaCutoff, std::numeric_limits<double>::infinity(), Place(place_, "alphaCutoff"));
-    out.double_sided = from.doubleSided;
+    out.alpha_cutoff = Factor(object_, "alphaCutoff", 0.5, kUnbounded, place_);
+    out.double_sided = LenientBool(object_, "doubleSided", place_).value_or(false);
     out.unlit = ExtensionOf(object_, "KHR_materials_unlit", place_) != nullptr;
     constexpr const char* kStrength = "KHR_materials_emissive_strength";
     if (const Json* strength = ExtensionOf(object_, kStrength, place_)) {
       const Place extensions_place(place_, "extensions");
-      const Place strength_place(extensions_place, kStrength);
-      out.emissive_strength = Clamp(NumberAt(*strength, "emissiveStrength", strength_place).value_or(1.0),
-                                    std::numeric_limits<double>::infinity(), strength_place);
+      out.emissive_strength =
+          Factor(*strength, "emissiveStrength", 1.0, kUnbounded, Place(extensions_place, kStrength));
     }
     return out;
   }
 
  private:
+  static constexpr double kUnbounded = std::numeric_limits<double>::infinity();
+
   // Into [0, high].
-  float Clamp(double value, double high, const Place& where) {
+  static float Clamp(double value, double high, const Place& where) {
     const double clamped = std::min(std::max(value, 0.0), high);
-    if (clamped != value) context_.Warn(where, "a number outside of its range was clamped");
+    if (clamped != value) where.Warn("a number outside of its range was clamped");
     return ToFloat(clamped);
   }
 
-  static TextureRef Ref(const Json& object, const char* key, const Place& place) {
+  static float Factor(const Json& object, const char* key, double otherwise, double high, const Place& place) {
+    return Clamp(LenientNumber(object, key, place).value_or(otherwise), high, Place(place, key));
+  }
+
+  static void SetTexCoord(const Json& object, const Place& place, TextureRef& ref) {
+    constexpr std::size_t kMostSets = 0x10000;
+    const int set = LenientIndex(object, "texCoord", kMostSets, "UV sets", place);
+    if (set >= 0) ref.tex_coord = set;
+  }
+
+  TextureRef Ref(const Json& object, const char* key, const Place& place) const {
     TextureRef ref;
-    const Json* info = ObjectAt(object, key, place);
+    const Json* info = LenientObject(object, key, place);
     if (!info) return ref;
     const Place info_place(place, key);
-    ref.texture = (*info)["index"].get<int>();  // CheckSchema has seen both
-    ref.tex_coord = static_cast<int>(SizeAt(*info, "texCoord", info_place).value_or(0));
+    if (!Find(*info, "index")) info_place.Warn("ignored: \"index\" is missing");
+    ref.texture = LenientIndex(*info, "index", texture_count_, "textures", info_place);
+    SetTexCoord(*info, info_place, ref);
     constexpr const char* kTransform = "KHR_texture_transform";
     const Json* transform = ExtensionOf(*info, kTransform, info_place);
     if (!transform) return ref;
     const Place extensions_place(info_place, "extensions");
     const Place transform_place(extensions_place, kTransform);
-    const auto offset = NumbersAt(*transform, "offset", 2, transform_place);
-    const auto scale = NumbersAt(*transform, "scale", 2, transform_place);
+    const auto offset = LenientNumbers(*transform, "offset", 2, transform_place);
+    const auto scale = LenientNumbers(*transform, "scale", 2, transform_place);
     if (!offset.empty()) ref.offset = {ToFloat(offset[0]), ToFloat(offset[1])};
     if (!scale.empty()) ref.scale = {ToFloat(scale[0]), ToFloat(scale[1])};
-    ref.rotation = ToFloat(NumberAt(*transform, "rotation", transform_place).value_or(0.0));
-    if (const auto tex_coord = SizeAt(*transform, "texCoord", transform_place)) {
-      if (*tex_coord > 0xFFFF) Fail(Place(transform_place, "texCoord"), "is absurdly large");
-      ref.tex_coord = static_cast<int>(*tex_coord);
-    }
+    ref.rotation = ToFloat(LenientNumber(*transform, "rotation", transform_place).value_or(0.0));
+    SetTexCoord(*transform, transform_place, ref);
     return ref;
   }
 
-  Context& context_;
+  const std::size_t texture_count_;
   const Json& object_;
   const Place& place_;
 };
@@ -104,10 +112,9 @@ class MaterialReader {
 
 void ReadMaterials(Context& context, Scene& scene) {
   const Place list_place(context.place, "materials");
-  for (std::size_t i = 0; i < context.document.core.materials.size(); ++i) {
+  for (std::size_t i = 0; i < context.document.Count("materials"); ++i) {
     const Place place(list_place, i);
-    scene.materials.push_back(
-        MaterialReader(context, context.Object("materials", i), place).Read(context.document.core.materials[i]));
+    scene.materials.push_back(MaterialReader(context.document, context.Object("materials", i), place).Read());
   }
 }
 

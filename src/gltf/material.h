@@ -6,7 +6,8 @@
 
 namespace facet::gltf {
 
-// Factors outside of their range are clamped, with a warning.
+// Nothing in a material is an error: factors outside of their range are clamped, with a warning, and what is broken is
+// read as if it were absent.
 void ReadMaterials(Context& context, Scene& scene);
 
 }  // namespace facet::gltf

@@ -1,61 +1,67 @@
 #include "gltf/nodes.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/gtc/type_ptr.hpp>
 #include <limits>
+#include <utility>
 
 namespace facet::gltf {
 namespace {
 
-glm::dquat ToUnit(Context& context, const double* xyzw, const Place& place) {
+glm::dquat ToUnit(const double* xyzw, const Place& place) {
   const double squared = xyzw[0] * xyzw[0] + xyzw[1] * xyzw[1] + xyzw[2] * xyzw[2] + xyzw[3] * xyzw[3];
   if (!(squared > 0.0) || !std::isfinite(squared)) {
-    context.Warn(place, "is no rotation; none is used");
+    place.Warn("is no rotation; none is used");
     return {1.0, 0.0, 0.0, 0.0};
   }
   constexpr double kTolerance = 0.01;  // quantised rotations are unit to within their steps
-  if (std::fabs(squared - 1.0) > kTolerance) context.Warn(place, "is not unit; it was normalised");
+  if (std::fabs(squared - 1.0) > kTolerance) place.Warn("is not unit; it was normalised");
   const double length = std::sqrt(squared);
   return {xyzw[3] / length, xyzw[0] / length, xyzw[1] / length, xyzw[2] / length};
 }
 
-void ReadTransform(Context& context, const tinygltf::Node& from, Node& node, const Place& place) {
-  if (from.matrix.size() == 16) {
-    node.matrix = glm::make_mat4(from.matrix.data());
+void ReadTransform(const Json& object, Node& node, const Place& place) {
+  const std::vector<double> matrix = NumbersAt(object, "matrix", 16, place);
+  if (!matrix.empty()) {
+    node.matrix = glm::make_mat4(matrix.data());
     const glm::dmat4& m = *node.matrix;
     if (m[0][3] != 0.0 || m[1][3] != 0.0 || m[2][3] != 0.0 || m[3][3] != 1.0) {
-      context.Warn(Place(place, "matrix"), "is not affine; its last row was replaced by 0, 0, 0, 1");
+      Place(place, "matrix").Warn("is not affine; its last row was replaced by 0, 0, 0, 1");
       for (int c = 0; c < 4; ++c) (*node.matrix)[c][3] = c == 3 ? 1.0 : 0.0;
     }
     return;
   }
-  if (from.translation.size() == 3) node.transform.translation = glm::make_vec3(from.translation.data());
-  if (from.scale.size() == 3) node.transform.scale = glm::make_vec3(from.scale.data());
-  if (from.rotation.size() == 4) {
-    node.transform.rotation = ToUnit(context, from.rotation.data(), Place(place, "rotation"));
-  }
+  const std::vector<double> translation = NumbersAt(object, "translation", 3, place);
+  const std::vector<double> rotation = NumbersAt(object, "rotation", 4, place);
+  const std::vector<double> scale = NumbersAt(object, "scale", 3, place);
+  if (!translation.empty()) node.transform.translation = glm::make_vec3(translation.data());
+  if (!scale.empty()) node.transform.scale = glm::make_vec3(scale.data());
+  if (!rotation.empty()) node.transform.rotation = ToUnit(rotation.data(), Place(place, "rotation"));
 }
 
 // EXT_mesh_gpu_instancing.
-std::vector<Transform> ReadInstances(Context& context, AccessorReader& reader, const Json& object, const Place& place) {
+void ReadInstances(Context& context, AccessorReader& reader, const Json& object, Node& node, const Place& place) {
   constexpr const char* kInstancing = "EXT_mesh_gpu_instancing";
   const Json* extension = ExtensionOf(object, kInstancing, place);
-  if (!extension) return {};
+  if (!extension) return;
   const Place extensions_place(place, "extensions");
   const Place instancing_place(extensions_place, kInstancing);
   const Json* attributes = ObjectAt(*extension, "attributes", instancing_place);
-  if (!attributes) return {};
+  if (!attributes) return;
   const Place attributes_place(instancing_place, "attributes");
   std::vector<Transform> instances;
+  bool is_empty = false;
   const auto read = [&](const char* semantic, int components, const auto& store) {
     const int accessor =
-        IndexAt(*attributes, semantic, context.document.core.accessors.size(), "accessors", attributes_place);
+        IndexAt(*attributes, semantic, context.document.Count("accessors"), "accessors", attributes_place);
     if (accessor < 0) return;
     const Place attribute_place(attributes_place, semantic);
     const AccessorView view = reader.View(accessor);
     if (view.is_matrix || view.components != components) {
       Fail(attribute_place, "does not have " + std::to_string(components) + " components");
     }
+    is_empty = is_empty || view.count == 0;
     if (instances.empty()) {
       context.Charge(view.count, sizeof(Transform), attribute_place);
       instances.resize(view.count);
@@ -71,21 +77,28 @@ std::vector<Transform> ReadInstances(Context& context, AccessorReader& reader, c
   read("SCALE", 3, [](Transform& t, const float* v, const Place&) { t.scale = {v[0], v[1], v[2]}; });
   read("ROTATION", 4, [&](Transform& t, const float* v, const Place& where) {
     const double xyzw[4] = {v[0], v[1], v[2], v[3]};
-    t.rotation = ToUnit(context, xyzw, where);
+    t.rotation = ToUnit(xyzw, where);
   });
-  return instances;
+  if (is_empty) {
+    instancing_place.Warn("has no instances; the mesh is not drawn");
+    node.mesh = -1;
+  }
+  node.instances = std::move(instances);
 }
 
 std::size_t TargetCount(const Mesh& mesh) {
   return mesh.primitives.empty() ? 0 : mesh.primitives.front().targets.size();
 }
 
-// Joint indices that the skin does not have are an error, unless their weight is zero: those are cleared.
-void CheckJoints(Mesh& mesh, std::size_t joint_count, int skin, const Place& mesh_place) {
-  std::size_t p = 0;
-  for (Primitive& primitive : mesh.primitives) {
-    const Place primitives_place(mesh_place, "primitives");
-    const Place place(primitives_place, p++);
+// Joint indices that the skin does not have are an error, unless their weight is zero: those are cleared. Warns of
+// vertices that no joint has a weight for.
+void CheckJoints(Context& context, std::size_t mesh, std::size_t joint_count, int skin, Scene& scene) {
+  const Place meshes_place(context.place, "meshes");
+  const Place mesh_place(meshes_place, mesh), primitives_place(mesh_place, "primitives");
+  std::vector<Primitive>& primitives = scene.meshes[mesh].primitives;
+  for (std::size_t p = 0; p < primitives.size(); ++p) {
+    Primitive& primitive = primitives[p];
+    const Place place(primitives_place, context.primitives_read[mesh][p]);
     for (std::size_t set = 0; set < primitive.joints.size(); ++set) {
       for (std::size_t v = 0; v < primitive.joints[set].size(); ++v) {
         for (int c = 0; c < 4; ++c) {
@@ -99,6 +112,12 @@ void CheckJoints(Mesh& mesh, std::size_t joint_count, int skin, const Place& mes
         }
       }
     }
+    std::size_t loose = 0;
+    for (std::size_t v = 0; v < primitive.positions.size() && !primitive.joints.empty(); ++v) {
+      loose += std::all_of(primitive.weights.begin(), primitive.weights.end(),
+                           [v](const std::vector<glm::vec4>& set) { return set[v] == glm::vec4(0.0f); });
+    }
+    if (loose) place.Warn(std::to_string(loose) + " vertices without weights follow the joint of their first slot");
   }
 }
 
@@ -111,111 +130,81 @@ void AttachSkin(Context& context, Scene& scene, Node& node, std::vector<std::siz
       skinned = skinned || !primitive.joints.empty();
     }
   }
-  const auto skin = static_cast<std::size_t>(node.skin);
-  if (!skinned || scene.skins[skin].joints.empty()) {
-    context.Warn(place, "ignored: a skin for what has no joints");
-    node.skin = -1;
+  const int skin = std::exchange(node.skin, -1);
+  const std::size_t joint_count = scene.skins[static_cast<std::size_t>(skin)].joints.size();
+  if (!skinned || joint_count == 0) {
+    place.Warn("ignored: a skin for what has no joints");
     return;
   }
-  const Place meshes_place(context.place, "meshes");
   std::size_t& fewest = checked[static_cast<std::size_t>(node.mesh)];
-  if (scene.skins[skin].joints.size() >= fewest) return;
-  fewest = scene.skins[skin].joints.size();
-  CheckJoints(scene.meshes[static_cast<std::size_t>(node.mesh)], scene.skins[skin].joints.size(), node.skin,
-              Place(meshes_place, static_cast<std::size_t>(node.mesh)));
+  if (joint_count < fewest) {
+    CheckJoints(context, static_cast<std::size_t>(node.mesh), joint_count, skin, scene);
+    fewest = joint_count;
+  }
+  node.skin = skin;
 }
 
-Node ReadNode(Context& context, AccessorReader& reader, Scene& scene, std::vector<std::size_t>& checked,
-              std::size_t index, const Place& place) {
-  const auto& from = context.document.core.nodes[index];
-  const Json& object = context.Object("nodes", index);
-  Node node;
-  node.name = from.name;
-  node.children = from.children;
-  node.mesh = from.mesh;
-  node.skin = from.skin;
-  node.camera = from.camera;
-  ReadTransform(context, from, node, place);
-  for (const double weight : from.weights) node.weights.push_back(static_cast<float>(weight));
-  if (!node.weights.empty()) {
-    const std::size_t targets = node.mesh >= 0 ? TargetCount(scene.meshes[static_cast<std::size_t>(node.mesh)]) : 0;
-    if (node.weights.size() != targets) {
-      context.Warn(Place(place, "weights"), "has " + std::to_string(node.weights.size()) + " numbers for " +
-                                                std::to_string(targets) + " morph targets");
-      node.weights.resize(targets, 0.0f);
-    }
-  }
-  const Place extensions_place(place, "extensions");
-  if (const Json* light = ExtensionOf(object, "KHR_lights_punctual", place)) {
-    node.light =
-        RequireIndex(*light, "light", scene.lights.size(), "lights", Place(extensions_place, "KHR_lights_punctual"));
-  }
-  if (const Json* visibility = ExtensionOf(object, "KHR_node_visibility", place)) {
-    node.visible = BoolAt(*visibility, "visible", Place(extensions_place, "KHR_node_visibility")).value_or(true);
-  }
-  node.instances = ReadInstances(context, reader, object, place);
-  AttachSkin(context, scene, node, checked, place);
-  return node;
-}
+class NodeReader {
+ public:
+  NodeReader(Context& context, AccessorReader& reader, const std::vector<bool>& usable_cameras, Scene& scene)
+      : context_(context),
+        reader_(reader),
+        usable_cameras_(usable_cameras),
+        scene_(scene),
+        checked_(scene.meshes.size(), std::numeric_limits<std::size_t>::max()) {}
 
-// Every node has one parent at most, and none is its own ancestor.
-std::vector<int> CheckForest(const Scene& scene, const Place& list_place) {
-  std::vector<int> parents(scene.nodes.size(), -1);
-  for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
-    for (const int child : scene.nodes[i].children) {
-      int& parent = parents[static_cast<std::size_t>(child)];
-      if (parent >= 0) {
-        Fail(Place(list_place, static_cast<std::size_t>(child)),
-             "is a child of both nodes[" + std::to_string(parent) + "] and nodes[" + std::to_string(i) + "]");
-      }
-      parent = static_cast<int>(i);
-    }
+  // Each part by itself: where the node is not shown, the others stay.
+  void Read(std::size_t index, bool shown, const Place& place) {
+    const Json& object = context_.Object("nodes", index);
+    Node& node = scene_.nodes[index];
+    const auto part = [&](const char* what, const auto& read) { context_.Try(shown, place, what, read); };
+    part("its transform is ignored", [&] { ReadTransform(object, node, place); });
+    part("its mesh is ignored", [&] { node.mesh = IndexAt(object, "mesh", scene_.meshes.size(), "meshes", place); });
+    part("its skin is ignored", [&] { node.skin = IndexAt(object, "skin", scene_.skins.size(), "skins", place); });
+    part("its skin is ignored", [&] { AttachSkin(context_, scene_, node, checked_, Place(place, "skin")); });
+    part("its instances are ignored", [&] { ReadInstances(context_, reader_, object, node, place); });
+    node.camera = LenientIndex(object, "camera", scene_.cameras.size(), "cameras", place);
+    if (node.camera >= 0 && !usable_cameras_[static_cast<std::size_t>(node.camera)]) node.camera = -1;
+    ReadLight(object, node, place);
+    ReadWeights(object, node, place);
   }
-  // A walk upwards that meets itself is a cycle; one that meets an earlier walk is not.
-  std::vector<std::size_t> met(scene.nodes.size(), 0);
-  for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
-    for (int at = static_cast<int>(i); at >= 0; at = parents[static_cast<std::size_t>(at)]) {
-      std::size_t& mark = met[static_cast<std::size_t>(at)];
-      if (mark == i + 1) Fail(Place(list_place, static_cast<std::size_t>(at)), "is its own ancestor");
-      if (mark != 0) break;
-      mark = i + 1;
-    }
+
+ private:
+  void ReadLight(const Json& object, Node& node, const Place& place) const {
+    constexpr const char* kLights = "KHR_lights_punctual";
+    const Json* extension = ExtensionOf(object, kLights, place);
+    if (!extension) return;
+    const Place extensions_place(place, "extensions");
+    const Place light_place(extensions_place, kLights);
+    if (!Find(*extension, "light")) light_place.Warn("\"light\" is missing");
+    node.light = LenientIndex(*extension, "light", scene_.lights.size(), "lights", light_place);
   }
-  return parents;
-}
+
+  void ReadWeights(const Json& object, Node& node, const Place& place) const {
+    node.weights = LenientFloats(object, "weights", place);
+    if (node.weights.empty()) return;
+    const std::size_t targets = node.mesh >= 0 ? TargetCount(scene_.meshes[static_cast<std::size_t>(node.mesh)]) : 0;
+    if (node.weights.size() == targets) return;
+    Place(place, "weights")
+        .Warn("has " + std::to_string(node.weights.size()) + " numbers for " + std::to_string(targets) +
+              " morph targets");
+    node.weights.resize(targets, 0.0f);
+  }
+
+  Context& context_;
+  AccessorReader& reader_;
+  const std::vector<bool>& usable_cameras_;
+  Scene& scene_;
+  std::vector<std::size_t> checked_;
+};
 
 }  // namespace
 
-void ReadNodes(Context& context, AccessorReader& reader, Scene& scene) {
-  const auto& core = context.document.core;
+void ReadNodes(Context& context, AccessorReader& reader, const Shown& shown, const std::vector<bool>& usable_cameras,
+               Scene& scene) {
   const Place list_place(context.place, "nodes");
-  std::vector<std::size_t> checked(scene.meshes.size(), std::numeric_limits<std::size_t>::max());
-  for (std::size_t i = 0; i < core.nodes.size(); ++i) {
-    scene.nodes.push_back(ReadNode(context, reader, scene, checked, i, Place(list_place, i)));
-  }
-  const std::vector<int> parents = CheckForest(scene, list_place);
-
-  std::vector<std::size_t> stands_in(scene.nodes.size(), 0);  // the last scene that named the node, counted from 1
-  const Place scenes_place(context.place, "scenes");
-  for (std::size_t i = 0; i < core.scenes.size(); ++i) {
-    SceneRoots roots{core.scenes[i].name, {}};
-    const Place scene_place(scenes_place, i);
-    const Place nodes_place(scene_place, "nodes");
-    for (std::size_t k = 0; k < core.scenes[i].nodes.size(); ++k) {
-      const int node = core.scenes[i].nodes[k];
-      const Place place(nodes_place, k);
-      if (parents[static_cast<std::size_t>(node)] >= 0) Fail(place, "is not a root node");
-      std::size_t& mark = stands_in[static_cast<std::size_t>(node)];
-      if (mark == i + 1) {
-        context.Warn(place, "ignored: the node stands in the scene already");
-        continue;
-      }
-      mark = i + 1;
-      roots.nodes.push_back(node);
-    }
-    scene.scenes.push_back(std::move(roots));
-  }
-  scene.default_scene = core.defaultScene;
+  NodeReader nodes(context, reader, usable_cameras, scene);
+  for (std::size_t i = 0; i < scene.nodes.size(); ++i) nodes.Read(i, shown.nodes[i], Place(list_place, i));
 }
 
 }  // namespace facet::gltf

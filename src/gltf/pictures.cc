@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "gltf/extensions.h"
+#include "gltf/recognize.h"
 #include "gltf/uri.h"
 #include "image/codec.h"
 #include "image/probe.h"
@@ -12,12 +13,30 @@
 namespace facet::gltf {
 namespace {
 
+// Throws Error(InvalidInput) for what cannot be a picture: in place of one people have what Git LFS leaves, or a
+// server's answer.
+void RefuseForeign(std::span<const std::byte> bytes, const std::string& name) {
+  const auto foreign = RecognizeForeign({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  if (!foreign || foreign->is_picture) return;
+  throw Error(ErrorCode::InvalidInput, "not a picture, but " + foreign->what, name, foreign->hint);
+}
+
+Image DecodeAny(std::span<const std::byte> bytes, const std::string& name) {
+  if (!ProbeImage(bytes)) RefuseForeign(bytes, name);
+  return DecodeImage(bytes, name);
+}
+
+void DecodeAnyRows(std::span<const std::byte> bytes, const std::string& name, const RowReceiver& receive) {
+  if (!ProbeImage(bytes)) RefuseForeign(bytes, name);
+  DecodeImageRows(bytes, name, receive);
+}
+
 // A picture in memory: a slice of the file, or of a data URI's bytes.
 class EncodedImage final : public ImageSource {
  public:
   EncodedImage(Bytes bytes, std::string name) : bytes_(std::move(bytes)), name_(std::move(name)) {}
-  Image Decode() const override { return DecodeImage(bytes_.Span(), name_); }
-  void DecodeRows(const RowReceiver& receive) const override { DecodeImageRows(bytes_.Span(), name_, receive); }
+  Image Decode() const override { return DecodeAny(bytes_.Span(), name_); }
+  void DecodeRows(const RowReceiver& receive) const override { DecodeAnyRows(bytes_.Span(), name_, receive); }
   std::string Name() const override { return name_; }
   std::optional<ImageHeader> Header() const override { return ProbeImage(bytes_.Span()); }
 
@@ -30,9 +49,9 @@ class EncodedImage final : public ImageSource {
 class ImageFile final : public ImageSource {
  public:
   explicit ImageFile(std::filesystem::path path) : path_(std::move(path)) {}
-  Image Decode() const override { return DecodeImage(ReadWholeFile(path_).Span(), Name()); }
+  Image Decode() const override { return DecodeAny(ReadWholeFile(path_).Span(), Name()); }
   void DecodeRows(const RowReceiver& receive) const override {
-    DecodeImageRows(ReadWholeFile(path_).Span(), Name(), receive);
+    DecodeAnyRows(ReadWholeFile(path_).Span(), Name(), receive);
   }
   std::string Name() const override { return path_.string(); }
   std::optional<ImageHeader> Header() const override;
@@ -69,29 +88,26 @@ class MissingImage final : public ImageSource {
   std::string name_, reason_;
 };
 
-std::shared_ptr<const ImageSource> ReadSource(Context& context, BufferStore& buffers, const Json& object,
-                                              std::size_t index, const Place& place) {
-  const std::string name = "image " + std::to_string(index) + " of " + context.file_name;
-  const auto missing = [&](const std::string& reason) {
-    context.Warn(place, reason + "; what it should show stays white");
-    return std::make_shared<MissingImage>(name, reason);
-  };
-  if (const Json* view = Find(object, "bufferView")) {
-    if (!buffers.HasData(view->get<int>())) return missing("the image's buffer has no data");
-    return std::make_shared<EncodedImage>(buffers.View(view->get<int>()), name);
+// Throws Error where there is no picture.
+std::shared_ptr<const ImageSource> OpenSource(Context& context, BufferStore& buffers, const Json& object,
+                                              const std::string& name, const Place& place) {
+  const int view = IndexAt(object, "bufferView", context.document.Count("bufferViews"), "bufferViews", place);
+  if (view >= 0) {
+    if (!buffers.HasData(view)) Fail(place, "the image's buffer has no data");
+    return std::make_shared<EncodedImage>(buffers.Read(view), name);
   }
   const auto uri = StringAt(object, "uri", place);
-  if (!uri) return missing("the image has neither a uri nor a bufferView");
+  if (!uri) Fail(place, "the image has neither a uri nor a bufferView");
   if (IsDataUri(*uri)) {
     auto bytes = DecodeDataUri(*uri);
-    if (!bytes) return missing("the image's data URI is malformed");
+    if (!bytes) Fail(place, "the image's data URI is malformed");
     return std::make_shared<EncodedImage>(*std::move(bytes), name);
   }
-  auto path = ResolveRelative(context.path.parent_path(), *uri);
-  if (!path) return missing("the image's uri \"" + *uri + "\" is not a relative path");
+  auto path = ResolveRelative(context.path.parent_path(), *uri, Place(place, "uri"));
+  if (!path) Fail(place, "the image's uri \"" + *uri + "\" is not a relative path");
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(*path, ignored)) {
-    return missing("the image file \"" + path->string() + "\" does not exist");
+    Fail(place, "the image file \"" + path->string() + "\" does not exist");
   }
   return std::make_shared<ImageFile>(*std::move(path));
 }
@@ -104,12 +120,15 @@ Wrap WrapOf(int value) {
   }
 }
 
-Sampler ReadSampler(const tinygltf::Sampler& from) {
+Sampler ReadSampler(const Json& object, const Place& place) {
+  const auto wrap = [&](const char* key) {
+    return WrapOf(LenientOneOf(object, key, {33071, 33648, 10497}, place).value_or(10497));
+  };
   Sampler sampler;
-  sampler.wrap_u = WrapOf(from.wrapS);
-  sampler.wrap_v = WrapOf(from.wrapT);
-  if (from.magFilter == 9728) sampler.magnification = Filter::Nearest;
-  switch (from.minFilter) {
+  sampler.wrap_u = wrap("wrapS");
+  sampler.wrap_v = wrap("wrapT");
+  if (LenientOneOf(object, "magFilter", {9728, 9729}, place) == 9728) sampler.magnification = Filter::Nearest;
+  switch (LenientOneOf(object, "minFilter", {9728, 9729, 9984, 9985, 9986, 9987}, place).value_or(9987)) {
     case 9728: sampler.minification = Filter::Nearest, sampler.mip = MipFilter::None; break;
     case 9729: sampler.minification = Filter::Linear, sampler.mip = MipFilter::None; break;
     case 9984: sampler.minification = Filter::Nearest, sampler.mip = MipFilter::Nearest; break;
@@ -120,48 +139,67 @@ Sampler ReadSampler(const tinygltf::Sampler& from) {
   return sampler;
 }
 
-}  // namespace
-
-void ReadImages(Context& context, BufferStore& buffers, Scene& scene) {
-  const Json* list = Find(context.document.root, "images");
-  const Place list_place(context.place, "images");
-  for (std::size_t i = 0; list && i < list->size(); ++i) {
-    const Json& object = (*list)[i];
-    const Place place(list_place, i);
-    scene.images.push_back({NameOf(object, place), ReadSource(context, buffers, object, i, place)});
+// Says why nothing stands in for the image of a texture that has none.
+void WarnOfNoImage(const Json& object, const Place& place) {
+  std::string names;
+  if (const Json* extensions = LenientObject(object, "extensions", place)) {
+    for (const auto& item : extensions->items()) {
+      if (!IsSupported(item.key())) names += (names.empty() ? "" : ", ") + item.key();
+    }
   }
+  place.Warn(names.empty() ? "the texture has no image; it stays white"
+                           : "the texture's image needs " + names + "; it stays white");
 }
 
-void ReadTextures(Context& context, Scene& scene) {
-  const Place list_place(context.place, "textures");
-  for (std::size_t i = 0; i < context.document.core.textures.size(); ++i) {
-    const auto& from = context.document.core.textures[i];
-    const Json& object = context.Object("textures", i);
+}  // namespace
+
+std::vector<bool> ReadImages(Context& context, BufferStore& buffers, Scene& scene) {
+  const Place list_place(context.place, "images");
+  std::vector<bool> there;
+  for (std::size_t i = 0; i < context.document.Count("images"); ++i) {
+    const Json& object = context.Object("images", i);
     const Place place(list_place, i);
-    Texture texture;
-    texture.name = from.name;
-    texture.image = from.source;
-    if (from.sampler >= 0) {
-      texture.sampler = ReadSampler(context.document.core.samplers[static_cast<std::size_t>(from.sampler)]);
+    const std::string name = "image " + std::to_string(i) + " of " + context.file_name;
+    std::shared_ptr<const ImageSource> source;
+    there.push_back(true);
+    try {
+      source = OpenSource(context, buffers, object, name, place);
+    } catch (const Error& error) {
+      if (IsFatal(error)) throw;
+      place.Warn("what it should show stays white", error);
+      source = std::make_shared<MissingImage>(name, error.message());
+      there.back() = false;
     }
+    scene.images.push_back({NameOf(object, place), std::move(source)});
+  }
+  return there;
+}
+
+void ReadTextures(Context& context, const std::vector<bool>& images, Scene& scene) {
+  const Place samplers_place(context.place, "samplers"), textures_place(context.place, "textures");
+  std::vector<Sampler> samplers;
+  for (std::size_t i = 0; i < context.document.Count("samplers"); ++i) {
+    samplers.push_back(ReadSampler(context.Object("samplers", i), Place(samplers_place, i)));
+  }
+  for (std::size_t i = 0; i < context.document.Count("textures"); ++i) {
+    const Json& object = context.Object("textures", i);
+    const Place place(textures_place, i);
+    Texture texture;
+    texture.name = NameOf(object, place);
+    texture.image = LenientIndex(object, "source", images.size(), "images", place);
+    const int sampler = LenientIndex(object, "sampler", samplers.size(), "samplers", place);
+    if (sampler >= 0) texture.sampler = samplers[static_cast<std::size_t>(sampler)];
     const Place extensions_place(place, "extensions");
     if (const Json* webp = ExtensionOf(object, "EXT_texture_webp", place)) {
       const int source =
-          IndexAt(*webp, "source", scene.images.size(), "images", Place(extensions_place, "EXT_texture_webp"));
+          LenientIndex(*webp, "source", images.size(), "images", Place(extensions_place, "EXT_texture_webp"));
       // Where the file offers both, the PNG or JPEG shows the same and needs no further module.
-      if (texture.image < 0) texture.image = source;
+      const bool has_image = texture.image >= 0 && images[static_cast<std::size_t>(texture.image)];
+      if (!has_image && source >= 0) texture.image = source;
     }
-    if (texture.image < 0) {
-      const Json* extensions = ObjectAt(object, "extensions", place);
-      std::string names;
-      if (extensions) {
-        for (const auto& item : extensions->items()) {
-          if (!IsSupported(item.key())) names += (names.empty() ? "" : ", ") + item.key();
-        }
-      }
-      context.Warn(place, names.empty() ? "the texture has no image; it stays white"
-                                        : "the texture's image needs " + names + "; it stays white");
-    }
+    if (texture.image < 0) WarnOfNoImage(object, place);
+    // Of an image that is not there enough has been said.
+    if (texture.image >= 0 && !images[static_cast<std::size_t>(texture.image)]) texture.image = -1;
     scene.textures.push_back(std::move(texture));
   }
 }

@@ -6,13 +6,15 @@
 #include <string_view>
 
 #include "facet/error.h"
+#include "gltf/warnings.h"
 
 namespace facet::gltf {
 
 // A step on the way from the file to a value in it. Made on the stack while walking down; refers to its parent.
 class Place {
  public:
-  explicit Place(std::string_view file) : key_(file) {}
+  // `warnings`, which takes what is said about places in the file, may be null: then nothing is said.
+  explicit Place(std::string_view file, Warnings* warnings = nullptr) : key_(file), warnings_(warnings) {}
   Place(const Place& parent, std::string_view key) : parent_(&parent), key_(key) {}
   Place(const Place& parent, std::size_t index) : parent_(&parent), index_(index), is_index_(true) {}
 
@@ -25,17 +27,33 @@ class Place {
   }
   // "scene.glb: accessors[3].bufferView".
   std::string Full() const {
-    const Place* root = this;
-    while (root->parent_) root = root->parent_;
-    const std::string path = Path();
-    return path.empty() ? std::string(root->key_) : std::string(root->key_) + ": " + path;
+    const std::string path = Path(), file(Root().key_);
+    return path.empty() ? file : file + ": " + path;
+  }
+
+  void Warn(const std::string& what) const {
+    if (Warnings* const warnings = Root().warnings_) warnings->Add(Path(), what);
+  }
+  // Warns of `consequence` here, and says why: an error here or elsewhere in the file.
+  void Warn(const std::string& consequence, const Error& why) const {
+    const std::string here = Full(), file = std::string(Root().key_) + ": ";
+    std::string where = why.where() == here ? "" : why.where() + ": ";
+    if (where.starts_with(file)) where.erase(0, file.size());
+    Warn(consequence + " (" + where + why.message() + ")");
   }
 
  private:
+  const Place& Root() const {
+    const Place* root = this;
+    while (root->parent_) root = root->parent_;
+    return *root;
+  }
+
   const Place* parent_ = nullptr;
   std::string_view key_;
   std::size_t index_ = 0;
   bool is_index_ = false;
+  Warnings* warnings_ = nullptr;  // the root's
 };
 
 [[noreturn]] inline void Fail(const Place& place, const std::string& message, const std::string& hint = {},

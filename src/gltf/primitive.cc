@@ -63,18 +63,18 @@ Range NarrowRange(std::vector<std::uint32_t>& indices, std::size_t vertex_count)
 }
 
 // Drops what is left over from a list of pairs or triples.
-void TrimList(Context& context, Primitive& primitive, const Place& place) {
+void TrimList(Primitive& primitive, const Place& place) {
   const std::size_t each = primitive.topology == Topology::Lines       ? 2
                            : primitive.topology == Topology::Triangles ? 3
                                                                        : 1;
   const std::size_t count = primitive.indices.empty() ? primitive.positions.size() : primitive.indices.size();
   if (count % each == 0) return;
-  context.Warn(place, "ignored: the last " + std::to_string(count % each) + " of " + std::to_string(count) +
-                          " vertices, which make no " + (each == 2 ? "line" : "triangle"));
+  place.Warn("ignored: the last " + std::to_string(count % each) + " of " + std::to_string(count) +
+             " vertices, which make no " + (each == 2 ? "line" : "triangle"));
   if (!primitive.indices.empty()) primitive.indices.resize(count - count % each);
 }
 
-void NormaliseNormals(Context& context, std::vector<glm::vec3>& normals, const Place& place) {
+void NormaliseNormals(std::vector<glm::vec3>& normals, const Place& place) {
   constexpr float kTolerance = 1e-3f;  // of the squared length: what is unit in the file keeps its bits
   std::size_t zero = 0;
   for (glm::vec3& normal : normals) {
@@ -87,10 +87,10 @@ void NormaliseNormals(Context& context, std::vector<glm::vec3>& normals, const P
       ++zero;
     }
   }
-  if (zero) context.Warn(place, std::to_string(zero) + " normals without a direction were replaced by +Z");
+  if (zero) place.Warn(std::to_string(zero) + " normals without a direction were replaced by +Z");
 }
 
-void NormaliseTangents(Context& context, std::vector<glm::vec4>& tangents, const Place& place) {
+void NormaliseTangents(std::vector<glm::vec4>& tangents, const Place& place) {
   constexpr float kTolerance = 1e-3f;
   std::size_t zero = 0, bad_sign = 0;
   for (glm::vec4& tangent : tangents) {
@@ -104,11 +104,11 @@ void NormaliseTangents(Context& context, std::vector<glm::vec4>& tangents, const
     bad_sign += std::fabs(tangent.w) != 1.0f;
     tangent.w = tangent.w < 0.0f ? -1.0f : 1.0f;
   }
-  if (zero) context.Warn(place, std::to_string(zero) + " tangents without a direction were replaced by +X");
-  if (bad_sign) context.Warn(place, std::to_string(bad_sign) + " tangents have a handedness that is not 1 or -1");
+  if (zero) place.Warn(std::to_string(zero) + " tangents without a direction were replaced by +X");
+  if (bad_sign) place.Warn(std::to_string(bad_sign) + " tangents have a handedness that is not 1 or -1");
 }
 
-void ClampColors(Context& context, std::vector<glm::vec4>& colors, const Place& place) {
+void ClampColors(std::vector<glm::vec4>& colors, const Place& place) {
   std::size_t outside = 0;
   for (glm::vec4& color : colors) {
     for (int c = 0; c < 4; ++c) {
@@ -116,185 +116,251 @@ void ClampColors(Context& context, std::vector<glm::vec4>& colors, const Place& 
       color[c] = std::min(std::max(color[c], 0.0f), 1.0f);
     }
   }
-  if (outside) context.Warn(place, std::to_string(outside) + " numbers outside of [0, 1] were clamped");
+  if (outside) place.Warn(std::to_string(outside) + " numbers outside of [0, 1] were clamped");
 }
 
 void WarnOfIntegers(Context& context, AttributeSource& source, const char* semantic, const Place& place) {
   if (source.View(semantic, 2, 4).type != ComponentType::F32 && !context.IsUsed("KHR_mesh_quantization")) {
-    context.Warn(Place(place, semantic), "integers without KHR_mesh_quantization");
+    Place(place, semantic).Warn("integers without KHR_mesh_quantization");
   }
 }
 
-void ReadAttributes(Context& context, AttributeSource& source, const std::map<std::string, int>& attributes,
-                    Primitive& out, const Place& place) {
-  out.positions = source.Vec3("POSITION");
-  WarnOfIntegers(context, source, "POSITION", place);
-  if (source.Has("NORMAL")) {
-    out.normals = source.Vec3("NORMAL");
-    WarnOfIntegers(context, source, "NORMAL", place);
-    NormaliseNormals(context, out.normals, Place(place, "NORMAL"));
+bool IsJointsOrWeights(const std::string& semantic) {
+  return SetOf(semantic, "JOINTS") >= 0 || SetOf(semantic, "WEIGHTS") >= 0;
+}
+
+class PrimitiveReader {
+ public:
+  PrimitiveReader(Context& context, BufferStore& buffers, AccessorReader& reader, const Json& object,
+                  const MeshUse& use, const Place& place)
+      : context_(context), buffers_(buffers), reader_(reader), object_(object), use_(use), place_(place) {}
+
+  std::optional<Primitive> Read();
+
+ private:
+  bool IsNeeded(const std::string& semantic) const {
+    return semantic == "POSITION" || (use_.skinned && IsJointsOrWeights(semantic));
   }
-  if (source.Has("TANGENT") && !source.Has("NORMAL")) {
-    context.Warn(Place(place, "TANGENT"), "ignored: tangents without normals");
-  } else if (source.Has("TANGENT")) {
-    out.tangents = source.Vec4("TANGENT");
-    NormaliseTangents(context, out.tangents, Place(place, "TANGENT"));
+
+  // Reads one attribute; where it is not needed, it may be broken.
+  template <class Function>
+  bool Optionally(const std::string& semantic, bool is_needed, const Place& place, const Function& function) {
+    return context_.Try(is_needed, Place(place, semantic), "ignored", function);
   }
-  if (source.Has("COLOR_0")) {
-    out.colors = source.Color("COLOR_0", 1.0f);
-    ClampColors(context, out.colors, Place(place, "COLOR_0"));
-  }
-  for (const auto& [semantic, accessor] : attributes) {
+
+  void ReadAttributes(AttributeSource& source, const Place& place);
+  void ReadTexCoords(AttributeSource& source, const Place& place);
+  void ReadJoints(AttributeSource& source, const Place& place);
+  MorphTarget ReadTarget(AttributeSource& source, bool is_needed, const Place& place);
+  void ReadTargets(std::size_t vertex_count, Range range);
+  std::optional<DracoMesh> TryDraco();
+  std::vector<int> ReadVariantMaterials();
+
+  Context& context_;
+  BufferStore& buffers_;
+  AccessorReader& reader_;
+  const Json& object_;
+  const MeshUse& use_;
+  const Place& place_;
+  std::map<std::string, int> attributes_;  // accessors by semantic
+  int indices_ = -1;
+  Primitive out_;
+};
+
+void PrimitiveReader::ReadTexCoords(AttributeSource& source, const Place& place) {
+  for (const auto& [semantic, accessor] : attributes_) {
     const int set = SetOf(semantic, "TEXCOORD");
     if (set < 0 || set >= kMaxSets) continue;
     const auto i = static_cast<std::size_t>(set);
-    if (out.tex_coords.size() <= i) out.tex_coords.resize(i + 1);
-    out.tex_coords[i] = source.Vec2(semantic);
+    if (out_.tex_coords.size() <= i) out_.tex_coords.resize(i + 1);
+    Optionally(semantic, false, place, [&] { out_.tex_coords[i] = source.Vec2(semantic); });
   }
+}
+
+void PrimitiveReader::ReadJoints(AttributeSource& source, const Place& place) {
   for (int set = 0; set < kMaxSets; ++set) {
     const std::string joints = "JOINTS_" + std::to_string(set), weights = "WEIGHTS_" + std::to_string(set);
     if (source.Has(joints) != source.Has(weights)) {
-      context.Warn(
-          place, "ignored: " + (source.Has(joints) ? joints + " without " + weights : weights + " without " + joints));
+      place.Warn("ignored: " + (source.Has(joints) ? joints + " without " + weights : weights + " without " + joints));
     } else if (source.Has(joints)) {
-      out.joints.push_back(source.Joints(joints));
-      out.weights.push_back(source.Weights(weights));
+      std::vector<glm::u16vec4> joint_list;
+      std::vector<glm::vec4> weight_list;
+      const bool is_read = Optionally(joints, use_.skinned, place, [&] { joint_list = source.Joints(joints); }) &&
+                           Optionally(weights, use_.skinned, place, [&] { weight_list = source.Weights(weights); });
+      if (!is_read) continue;
+      out_.joints.push_back(std::move(joint_list));
+      out_.weights.push_back(std::move(weight_list));
     }
   }
+}
+
+void PrimitiveReader::ReadAttributes(AttributeSource& source, const Place& place) {
+  out_.positions = source.Vec3("POSITION");
+  WarnOfIntegers(context_, source, "POSITION", place);
+  if (source.Has("NORMAL")) {
+    Optionally("NORMAL", false, place, [&] {
+      out_.normals = source.Vec3("NORMAL");
+      WarnOfIntegers(context_, source, "NORMAL", place);
+      NormaliseNormals(out_.normals, Place(place, "NORMAL"));
+    });
+  }
+  if (source.Has("TANGENT") && out_.normals.empty()) {
+    Place(place, "TANGENT").Warn("ignored: tangents without normals");
+  } else if (source.Has("TANGENT")) {
+    Optionally("TANGENT", false, place, [&] {
+      out_.tangents = source.Vec4("TANGENT");
+      NormaliseTangents(out_.tangents, Place(place, "TANGENT"));
+    });
+  }
+  if (source.Has("COLOR_0")) {
+    Optionally("COLOR_0", false, place, [&] {
+      out_.colors = source.Color("COLOR_0", 1.0f);
+      ClampColors(out_.colors, Place(place, "COLOR_0"));
+    });
+  }
+  ReadTexCoords(source, place);
+  ReadJoints(source, place);
   source.WarnOfOthers(false);
 }
 
-MorphTarget ReadTarget(Context& context, AttributeSource& source, const std::map<std::string, int>& attributes,
-                       const Primitive& base, const Place& place) {
+MorphTarget PrimitiveReader::ReadTarget(AttributeSource& source, bool is_needed, const Place& place) {
   MorphTarget target;
-  const auto based = [&](const std::string& semantic, bool has_base) {
-    if (!has_base) context.Warn(Place(place, semantic), "ignored: the primitive has no such attribute");
-    return has_base;
+  const auto read = [&](const std::string& semantic, bool has_base, const auto& function) {
+    if (!source.Has(semantic)) return;
+    if (!has_base) return Place(place, semantic).Warn("ignored: the primitive has no such attribute");
+    Optionally(semantic, is_needed && semantic == "POSITION", place, function);
   };
-  if (source.Has("POSITION")) target.positions = source.Vec3("POSITION");
-  if (source.Has("NORMAL") && based("NORMAL", !base.normals.empty())) target.normals = source.Vec3("NORMAL");
-  if (source.Has("TANGENT") && based("TANGENT", !base.tangents.empty())) {
-    target.tangents = source.Vec3("TANGENT", 3, 4);
-  }
-  if (source.Has("COLOR_0") && based("COLOR_0", !base.colors.empty())) target.colors = source.Color("COLOR_0", 0.0f);
-  for (const auto& [semantic, accessor] : attributes) {
-    const int set = SetOf(semantic, "TEXCOORD");
-    if (set < 0 || set >= kMaxSets) continue;
-    const auto i = static_cast<std::size_t>(set);
-    if (!based(semantic, i < base.tex_coords.size() && !base.tex_coords[i].empty())) continue;
-    if (target.tex_coords.size() <= i) target.tex_coords.resize(i + 1);
-    target.tex_coords[i] = source.Vec2(semantic);
+  read("POSITION", true, [&] { target.positions = source.Vec3("POSITION"); });
+  read("NORMAL", !out_.normals.empty(), [&] { target.normals = source.Vec3("NORMAL"); });
+  read("TANGENT", !out_.tangents.empty(), [&] { target.tangents = source.Vec3("TANGENT", 3, 4); });
+  read("COLOR_0", !out_.colors.empty(), [&] { target.colors = source.Color("COLOR_0", 0.0f); });
+  for (std::size_t i = 0; i < std::size_t(kMaxSets); ++i) {
+    const std::string semantic = "TEXCOORD_" + std::to_string(i);
+    read(semantic, i < out_.tex_coords.size() && !out_.tex_coords[i].empty(), [&] {
+      if (target.tex_coords.size() <= i) target.tex_coords.resize(i + 1);
+      target.tex_coords[i] = source.Vec2(semantic);
+    });
   }
   source.WarnOfOthers(true);
   return target;
 }
 
-// Null where the primitive is not packed, or where its packed data is damaged and plain data stands beside it.
-std::optional<DracoMesh> TryDraco(Context& context, BufferStore& buffers, const Json& object,
-                                  const tinygltf::Primitive& primitive, const Place& place) {
-  constexpr const char* kDraco = "KHR_draco_mesh_compression";
-  const Json* extension = ExtensionOf(object, kDraco, place);
-  if (!extension) return std::nullopt;
-  const Place extensions_place(place, "extensions");
-  const Place draco_place(extensions_place, kDraco);
-  try {
-    return DecodeDraco(context, buffers, *extension, primitive, draco_place);
-  } catch (const Error& error) {
-    if (context.IsRequired(kDraco) || error.code() == ErrorCode::OutOfMemory) throw;
-    const auto& accessors = context.document.core.accessors;
-    const auto backed = [&](int accessor) { return accessors[static_cast<std::size_t>(accessor)].bufferView >= 0; };
-    bool has_plain = primitive.indices < 0 || backed(primitive.indices);
-    for (const auto& [semantic, accessor] : primitive.attributes) has_plain = has_plain && backed(accessor);
-    if (!has_plain) throw;
-    context.Warn(draco_place, error.message() + "; the uncompressed data is used");
-    return std::nullopt;
+void PrimitiveReader::ReadTargets(std::size_t vertex_count, Range range) {
+  const Json* targets = LenientArray(object_, "targets", place_);
+  if (!targets) return;
+  const Place targets_place(place_, "targets");
+  for (std::size_t t = 0; t < targets->size(); ++t) {
+    const Place place(targets_place, t);
+    const bool is_needed = t < use_.moving_targets.size() && use_.moving_targets[t];
+    const std::map<std::string, int> attributes =
+        ReadAttributeList(context_, LenientElement((*targets)[t], place), place,
+                          [&](const std::string& semantic) { return is_needed && semantic == "POSITION"; });
+    AttributeSource source(context_, reader_, attributes, nullptr, vertex_count, range, place);
+    out_.targets.push_back(ReadTarget(source, is_needed, place));
   }
 }
 
+// Nothing where the primitive is not packed, or where its packed data is damaged and plain data stands beside it.
+std::optional<DracoMesh> PrimitiveReader::TryDraco() {
+  constexpr const char* kDraco = "KHR_draco_mesh_compression";
+  const Json* extension = ExtensionOf(object_, kDraco, place_);
+  if (!extension) return std::nullopt;
+  const Place extensions_place(place_, "extensions");
+  const Place draco_place(extensions_place, kDraco);
+  const auto is_backed = [&](int accessor) { return reader_.Describe(accessor).view >= 0; };
+  bool has_plain = !context_.IsRequired(kDraco) && (indices_ < 0 || is_backed(indices_));
+  for (const auto& [semantic, accessor] : attributes_) has_plain = has_plain && is_backed(accessor);
+  std::optional<DracoMesh> mesh;
+  context_.Try(!has_plain, draco_place, "the uncompressed data is used", [&] {
+    mesh = DecodeDraco(
+        context_, buffers_, reader_, *extension, [&](const std::string& semantic) { return IsNeeded(semantic); },
+        attributes_, draco_place);
+  });
+  return mesh;
+}
+
 // KHR_materials_variants.
-std::vector<int> ReadVariantMaterials(Context& context, const Json& object, std::size_t material_count,
-                                      const Place& place) {
+std::vector<int> PrimitiveReader::ReadVariantMaterials() {
   constexpr const char* kVariants = "KHR_materials_variants";
-  const Json* extension = ExtensionOf(object, kVariants, place);
+  const Json* extension = ExtensionOf(object_, kVariants, place_);
   if (!extension) return {};
   std::size_t variant_count = 0;
-  if (const Json* root = ExtensionOf(context.document.root, kVariants, context.place)) {
-    const Json* variants = ArrayAt(*root, "variants", Place(context.place, kVariants));
+  if (const Json* root = ExtensionOf(context_.document.root, kVariants, context_.place)) {
+    const Json* variants = LenientArray(*root, "variants", Place(context_.place, kVariants));
     variant_count = variants ? variants->size() : 0;
   }
-  const Place extensions_place(place, "extensions");
+  const Place extensions_place(place_, "extensions");
   const Place variants_place(extensions_place, kVariants);
-  const Json* mappings = ArrayAt(*extension, "mappings", variants_place);
+  const Json* mappings = LenientArray(*extension, "mappings", variants_place);
   if (!mappings || variant_count == 0) return {};
   std::vector<int> materials(variant_count, -1);
   const Place mappings_place(variants_place, "mappings");
-  std::size_t i = 0;
-  for (const Json& mapping : *mappings) {
-    const Place mapping_place(mappings_place, i++);
-    RequireObject(mapping, mapping_place);
-    const int material = RequireIndex(mapping, "material", material_count, "materials", mapping_place);
-    for (const int variant : IndicesAt(mapping, "variants", variant_count, "variants", mapping_place)) {
-      materials[static_cast<std::size_t>(variant)] = material;
+  for (std::size_t i = 0; i < mappings->size(); ++i) {
+    const Place place(mappings_place, i), list_place(place, "variants");
+    const Json& mapping = LenientElement((*mappings)[i], place);
+    if (!Find(mapping, "material")) place.Warn("\"material\" is missing");
+    const int material = LenientIndex(mapping, "material", context_.document.Count("materials"), "materials", place);
+    const Json* variants = LenientArray(mapping, "variants", place);
+    for (std::size_t v = 0; variants && v < variants->size(); ++v) {
+      const Place variant_place(list_place, v);
+      context_.Try(false, variant_place, "ignored", [&] {
+        materials[std::size_t(AsIndex((*variants)[v], variant_count, "variants", variant_place))] = material;
+      });
     }
   }
   return materials;
 }
 
-}  // namespace
-
-std::optional<Primitive> ReadPrimitive(Context& context, BufferStore& buffers, AccessorReader& reader,
-                                       std::size_t mesh_index, std::size_t primitive_index) {
-  const auto& core = context.document.core;
-  const auto& from = core.meshes[mesh_index].primitives[primitive_index];
-  const Json& object = context.Object("meshes", mesh_index)["primitives"][primitive_index];
-  const Place meshes_place(context.place, "meshes");
-  const Place mesh_place(meshes_place, mesh_index);
-  const Place primitives_place(mesh_place, "primitives");
-  const Place place(primitives_place, primitive_index);
-  const Place attributes_place(place, "attributes");
-
-  const auto position = from.attributes.find("POSITION");
-  if (position == from.attributes.end()) {
-    context.Warn(place, "ignored: the primitive has no positions");
+std::optional<Primitive> PrimitiveReader::Read() {
+  const Place attributes_place(place_, "attributes");
+  const auto is_needed = [&](const std::string& semantic) { return IsNeeded(semantic); };
+  attributes_ = ReadAttributeList(context_, RequireObject(object_, "attributes", place_), attributes_place, is_needed);
+  const std::size_t accessor_count = context_.document.Count("accessors");
+  indices_ = IndexAt(object_, "indices", accessor_count, "accessors", place_);
+  const auto position = attributes_.find("POSITION");
+  if (position == attributes_.end()) {
+    place_.Warn("ignored: the primitive has no positions");
     return std::nullopt;
   }
-  Primitive out;
-  out.topology = TopologyOf(from.mode);
-  out.material = from.material;
-  out.variant_materials = ReadVariantMaterials(context, object, core.materials.size(), place);
+  out_.topology = TopologyOf(OneOfAt(object_, "mode", {0, 1, 2, 3, 4, 5, 6}, place_).value_or(4));
+  out_.material = LenientIndex(object_, "material", context_.document.Count("materials"), "materials", place_);
+  out_.variant_materials = ReadVariantMaterials();
 
-  std::optional<DracoMesh> draco = TryDraco(context, buffers, object, from, place);
-  std::size_t vertex_count = reader.Count(position->second);
+  std::optional<DracoMesh> draco = TryDraco();
+  std::size_t vertex_count = reader_.Count(position->second);
   Range range;
   if (draco) {
     vertex_count = draco->point_count;
     range = {0, vertex_count};
-    out.indices = std::move(draco->indices);
-    out.topology = Topology::Triangles;  // Draco unrolls strips
+    out_.indices = std::move(draco->indices);
+    if (!IsTriangles(out_.topology)) place_.Warn("Draco compresses triangles only");
+    out_.topology = Topology::Triangles;  // Draco unrolls strips
   } else {
     constexpr std::size_t kMaxVertices = 0xFFFFFFFFu;
-    if (vertex_count > kMaxVertices) Fail(place, "has more than 4294967295 vertices", {}, ErrorCode::Unsupported);
-    if (from.indices >= 0) {
-      out.indices = ReadIndices(context, reader, from.indices, vertex_count, Place(place, "indices"));
+    if (vertex_count > kMaxVertices) Fail(place_, "has more than 4294967295 vertices", {}, ErrorCode::Unsupported);
+    if (indices_ >= 0) {
+      out_.indices = ReadIndices(context_, reader_, indices_, vertex_count, Place(place_, "indices"));
     }
-    range = NarrowRange(out.indices, vertex_count);
-  }
-  if (!IsTriangles(out.topology) && ExtensionOf(object, "KHR_draco_mesh_compression", place)) {
-    context.Warn(place, "Draco compresses triangles only");
+    if (vertex_count == 0 || (indices_ >= 0 && out_.indices.empty())) {
+      place_.Warn(std::string("ignored: the primitive has no ") + (vertex_count == 0 ? "vertices" : "indices"));
+      return std::nullopt;
+    }
+    range = NarrowRange(out_.indices, vertex_count);
   }
 
-  AttributeSource source(context, reader, from.attributes, draco ? &*draco : nullptr, vertex_count, range,
+  AttributeSource source(context_, reader_, attributes_, draco ? &*draco : nullptr, vertex_count, range,
                          attributes_place);
-  ReadAttributes(context, source, from.attributes, out, attributes_place);
-  TrimList(context, out, place);
+  ReadAttributes(source, attributes_place);
+  TrimList(out_, place_);
+  ReadTargets(vertex_count, range);
+  return std::optional(std::move(out_));
+}
 
-  const Place targets_place(place, "targets");
-  for (std::size_t t = 0; t < from.targets.size(); ++t) {
-    const Place target_place(targets_place, t);
-    AttributeSource target(context, reader, from.targets[t], nullptr, vertex_count, range, target_place);
-    out.targets.push_back(ReadTarget(context, target, from.targets[t], out, target_place));
-  }
-  return out;
+}  // namespace
+
+std::optional<Primitive> ReadPrimitive(Context& context, BufferStore& buffers, AccessorReader& reader,
+                                       const Json& object, const MeshUse& use, const Place& place) {
+  return PrimitiveReader(context, buffers, reader, object, use, place).Read();
 }
 
 }  // namespace facet::gltf

@@ -1,9 +1,11 @@
 #include "gltf/uri.h"
 
+#include <algorithm>
 #include <array>
 #include <cctype>
 #include <cstdint>
 #include <cstring>
+#include <iterator>
 
 namespace facet::gltf {
 namespace {
@@ -32,6 +34,9 @@ constexpr std::array<std::uint8_t, 256> MakeBase64Digits() {
 
 constexpr auto kBase64Digits = MakeBase64Digits();
 
+// What lines are broken and indented with.
+bool IsBlank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == '\f'; }
+
 std::filesystem::path PathOfUtf8(const std::string& name) {
   return std::filesystem::path(std::u8string(name.begin(), name.end()));
 }
@@ -56,6 +61,7 @@ std::string PercentDecode(std::string_view text) {
 }
 
 bool IsDataUri(std::string_view uri) {
+  while (!uri.empty() && IsBlank(uri.front())) uri.remove_prefix(1);
   constexpr std::string_view kScheme = "data:";
   if (uri.size() < kScheme.size()) return false;
   for (std::size_t i = 0; i < kScheme.size(); ++i) {
@@ -65,8 +71,7 @@ bool IsDataUri(std::string_view uri) {
 }
 
 std::optional<Bytes> DecodeBase64(std::string_view text) {
-  while (!text.empty() && text.back() == '=') text.remove_suffix(1);
-  if (text.size() % 4 == 1) return std::nullopt;
+  while (!text.empty() && (text.back() == '=' || IsBlank(text.back()))) text.remove_suffix(1);
   MutableBytes bytes = AllocateBytes(text.size() * 3 / 4);
   std::byte* out = bytes.data();
   std::uint32_t bits = 0, bad = 0;
@@ -81,19 +86,26 @@ std::optional<Bytes> DecodeBase64(std::string_view text) {
       *out++ = static_cast<std::byte>((bits >> held) & 0xFFu);
     }
   }
-  if (bad & 0x80u) return std::nullopt;
+  if (bad & 0x80u) {
+    if (std::none_of(text.begin(), text.end(), IsBlank)) return std::nullopt;
+    std::string dense;
+    std::remove_copy_if(text.begin(), text.end(), std::back_inserter(dense), IsBlank);
+    return DecodeBase64(dense);
+  }
+  if (text.size() % 4 == 1) return std::nullopt;
   return bytes.Freeze();
 }
 
 std::optional<Bytes> DecodeDataUri(std::string_view uri) {
   const std::size_t comma = uri.find(',');
   if (!IsDataUri(uri) || comma == std::string_view::npos) return std::nullopt;
-  const std::string_view header = uri.substr(0, comma), body = uri.substr(comma + 1);
-  constexpr std::string_view kBase64 = ";base64";
-  const bool percent = body.find('%') != std::string_view::npos;
-  if (header.size() >= kBase64.size() && header.substr(header.size() - kBase64.size()) == kBase64) {
-    return percent ? DecodeBase64(PercentDecode(body)) : DecodeBase64(body);
+  std::string header;
+  for (const char c : uri.substr(0, comma)) {
+    if (!IsBlank(c)) header += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   }
+  const std::string_view body = uri.substr(comma + 1);
+  const bool percent = body.find('%') != std::string_view::npos;
+  if (header.ends_with(";base64")) return percent ? DecodeBase64(PercentDecode(body)) : DecodeBase64(body);
   const std::string text = PercentDecode(body);
   MutableBytes bytes = AllocateBytes(text.size());
   std::memcpy(bytes.data(), text.data(), text.size());
@@ -109,17 +121,27 @@ bool HasScheme(std::string_view uri) {
   return i >= 2 && i < uri.size() && uri[i] == ':' && std::isalpha(static_cast<unsigned char>(uri[0]));
 }
 
-std::optional<std::filesystem::path> ResolveRelative(const std::filesystem::path& folder, std::string_view uri) {
+std::optional<std::filesystem::path> ResolveRelative(const std::filesystem::path& folder, std::string_view uri,
+                                                     const Place& place) {
   if (uri.empty() || HasScheme(uri)) return std::nullopt;
   const std::string decoded = PercentDecode(uri);
   // A zero would end the name early for the operating system, and name another file than the message does.
   if (decoded.find('\0') != std::string::npos) return std::nullopt;
+  const auto is_beside = [](const std::filesystem::path& path) { return path.is_relative() && !path.has_root_path(); };
   const std::filesystem::path relative = PathOfUtf8(decoded);
-  if (relative.is_absolute() || relative.has_root_path()) return std::nullopt;
-  std::error_code ignored;
-  if (!std::filesystem::exists(folder / relative, ignored)) {
-    const std::filesystem::path as_written = PathOfUtf8(std::string(uri));
-    if (std::filesystem::exists(folder / as_written, ignored)) return folder / as_written;
+  if (!is_beside(relative)) return std::nullopt;
+  const auto exists = [&](const std::filesystem::path& path) {
+    std::error_code ignored;
+    return is_beside(path) && std::filesystem::exists(folder / path, ignored);
+  };
+  if (exists(relative)) return folder / relative;
+  const std::filesystem::path as_written = PathOfUtf8(std::string(uri));
+  if (exists(as_written)) return folder / as_written;
+  for (std::string name : {decoded, std::string(uri)}) {
+    std::replace(name.begin(), name.end(), '\\', '/');
+    if (!exists(PathOfUtf8(name))) continue;
+    place.Warn("backslashes are read as slashes");
+    return folder / PathOfUtf8(name);
   }
   return folder / relative;
 }

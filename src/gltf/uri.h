@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "gltf/bytes.h"
+#include "gltf/place.h"
 
 namespace facet::gltf {
 
@@ -18,14 +19,16 @@ bool IsDataUri(std::string_view uri);
 // The bytes that a data URI holds (base64, or percent-encoded text); nothing when it is malformed.
 std::optional<Bytes> DecodeDataUri(std::string_view uri);
 
-// Standard or URL-safe alphabet, padding optional; nothing when it is malformed.
+// Standard or URL-safe alphabet, padding optional, blanks and line breaks ignored; nothing when it is malformed.
 std::optional<Bytes> DecodeBase64(std::string_view text);
 
 // True for "http://...", "file:...": what names a scheme. A single letter is no scheme ("C:" is a Windows drive).
 bool HasScheme(std::string_view uri);
 
-// The file that a relative reference names, beside `folder`: the decoded name, or the name as it is written where only
-// that exists. Nothing for absolute references and those with a scheme.
-std::optional<std::filesystem::path> ResolveRelative(const std::filesystem::path& folder, std::string_view uri);
+// The file that a relative reference names, beside `folder`: the decoded name, or where only these exist the name as it
+// is written, or with slashes in place of backslashes (a warning at `place`). Nothing for absolute references and those
+// with a scheme.
+std::optional<std::filesystem::path> ResolveRelative(const std::filesystem::path& folder, std::string_view uri,
+                                                     const Place& place);
 
 }  // namespace facet::gltf

@@ -22,15 +22,14 @@ class Planner {
     const Primitive& geometry = *drawable.geometry;
     const Material& material =
         drawable.material >= 0 ? scene_.materials[std::size_t(drawable.material)] : kDefaultMaterial;
-    // Points and lines have no surface: without normals they are drawn unlit (glTF 2.0 specification, 3.9.6).
-    const bool unlit =
-        material.unlit || (geometry.normals.empty() && ClassOf(geometry.topology) != PrimitiveClass::Triangles);
+    // Points and lines have no surface unless they have normals, and get no tangents from anyone: without the file's
+    // they have no tangent space.
+    const bool is_thin = ClassOf(geometry.topology) != PrimitiveClass::Triangles;
+    const bool on_surface = !is_thin || !geometry.normals.empty(), flat = is_thin && geometry.tangents.empty();
     const bool colors = !geometry.colors.empty();
-    // Points and lines get no tangents from anyone; without the file's they have no tangent space.
-    const bool flat = geometry.tangents.empty() && ClassOf(geometry.topology) != PrimitiveClass::Triangles;
     const auto [known, is_new] =
-        materials_.try_emplace({drawable.material, unlit, colors, flat}, static_cast<int>(plan.materials.size()));
-    if (is_new) plan.materials.push_back(Plan(material, drawable.material, unlit, colors, flat));
+        materials_.try_emplace({drawable.material, on_surface, colors, flat}, static_cast<int>(plan.materials.size()));
+    if (is_new) plan.materials.push_back(Plan(material, drawable.material, on_surface, colors, flat));
     return known->second;
   }
 
@@ -38,16 +37,14 @@ class Planner {
   FeatureSet stated;  // what a drawn material says it has, of use or not
 
  private:
-  PlannedMaterial Plan(Material material, int index, bool unlit, bool colors, bool flat) {
-    material.unlit = unlit;
+  PlannedMaterial Plan(Material material, int index, bool on_surface, bool colors, bool flat) {
     if (flat) material.normal_texture = {};
     LeaveOut(material, colors);
     PlannedMaterial planned;
     planned.material = index;
-    planned.unlit = unlit;
     planned.vertex_colors = colors;
     FrameMaterial& f = planned.frame;
-    f.features = FeaturesOf(material);
+    f.features = FeaturesOf(material, on_surface);
     f.vertex_colors = colors;
     f.alpha_mode = material.alpha_mode;
     for (int i = 0; i < 4; ++i) f.base_color[i] = material.base_color_factor[i];
@@ -135,7 +132,7 @@ class Planner {
 
   const Scene& scene_;
   const RenderSettings& settings_;
-  std::map<std::tuple<int, bool, bool, bool>, int> materials_;  // material, unlit, vertex colours, no tangents
+  std::map<std::tuple<int, bool, bool, bool>, int> materials_;  // material, surface, vertex colours, no tangents
   std::map<std::pair<int, TextureRole>, int> textures_;
 };
 

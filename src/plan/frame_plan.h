@@ -28,7 +28,6 @@ struct PlannedTexture {
 struct PlannedMaterial {
   int material = -1;           // index into Scene::materials; -1: glTF's default
   bool vertex_colors = false;  // the geometry has colours
-  bool unlit = false;          // the file says so, or points and lines without normals
   FrameMaterial frame;         // texture slots still empty
   // Index into FramePlan::textures for base colour, metallic-roughness, normal, occlusion, emission; -1: none.
   int textures[5] = {-1, -1, -1, -1, -1};

@@ -45,11 +45,14 @@ ShadingInputs ExactMaterial::Inputs(const SurfacePoint& point, const glm::dvec3&
   }
   in.normal = Normal(point);
   if (Has(kOcclusionTexture)) in.occlusion = 1.0 + double(material_.occlusion_strength) * (Read(3, point).x - 1.0);
-  if (Has(kEmission)) {
-    in.emissive = glm::dvec3(material_.emissive_factor) * double(material_.emissive_strength);
-    if (Has(kEmissiveTexture)) in.emissive *= glm::dvec3(Read(4, point));
-  }
+  in.emissive = Emission(point);
   return in;
+}
+
+glm::dvec3 ExactMaterial::Emission(const SurfacePoint& point) const {
+  if (!Has(kEmission)) return glm::dvec3(0.0);
+  const glm::dvec3 emission = glm::dvec3(material_.emissive_factor) * double(material_.emissive_strength);
+  return Has(kEmissiveTexture) ? emission * glm::dvec3(Read(4, point)) : emission;
 }
 
 std::vector<ExactMaterial> MakeExactMaterials(const Scene& scene, const FramePlan& plan,

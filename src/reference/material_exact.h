@@ -31,6 +31,7 @@ class ExactMaterial {
 
   // Factor times texture times vertex colour: linear, straight alpha.
   glm::dvec4 BaseColor(const SurfacePoint& point) const;
+  glm::dvec3 Emission(const SurfacePoint& point) const;
   ShadingInputs Inputs(const SurfacePoint& point, const glm::dvec3& base_color) const;
 
  private:

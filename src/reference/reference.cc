@@ -167,8 +167,10 @@ class ReferenceScene {
     const SurfacePoint point = geometry_.SurfaceAt(hit);
     const ExactMaterial& material = MaterialAt(hit);
     const glm::dvec4 base = material.BaseColor(point);
-    glm::dvec3 color(base);
-    if (material.IsLit()) color = RadianceTowardEye(material.Inputs(point, color), point, *light_, run);
+    const glm::dvec3 base_color(base);
+    const glm::dvec3 color = material.IsLit()
+                                 ? RadianceTowardEye(material.Inputs(point, base_color), point, *light_, run)
+                                 : base_color + material.Emission(point);
     if (!std::isfinite(color.x + color.y + color.z + base.w)) {
       ++non_finite_;
       return glm::dvec4(0.0);

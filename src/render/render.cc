@@ -21,6 +21,7 @@
 #include "plan/frame_plan.h"
 #include "render/frame_view.h"
 #include "render/geometry_pass.h"
+#include "render/picture_warnings.h"
 #include "render/texture_pass.h"
 #include "render/tile_pass.h"
 #include "scene/camera.h"
@@ -127,6 +128,10 @@ std::shared_ptr<const EnvironmentMap> FromSource(const EnvironmentSource& source
   return map;
 }
 
+void Warn(const std::string& warning, RenderStats& stats) {
+  if (!warning.empty()) stats.warnings.push_back(warning);
+}
+
 void PrepareFilm(int width, int rows, Film& film) {
   film.width = width;
   film.pixels.reserve(std::size_t(width) * std::size_t(rows));
@@ -188,6 +193,7 @@ class Renderer::Frames {
     const EnvironmentMap* environment = Environment(plan, settings, budget, stats);
     std::vector<PunctualLight> lights;
     if (plan.punctual_lights) lights = MakePunctualLights(posed.lights, view.eye_world);
+    Warn(WhyNothingIsLit(plan, geometry_.material_visible, !lights.empty(), settings), stats);
     if (plan.dark_light) lights.emplace_back().type = LightType::Directional;
     const LightingData lighting =
         MakeLightingData(lights, environment, settings.environment.rotation, settings.environment.intensity);
@@ -217,6 +223,7 @@ class Renderer::Frames {
       stats.raster_seconds += stage.Lap();
       if (output.receive != nullptr) (*output.receive)(*output.film, first), stage.Lap();
     }
+    Warn(WhyNothingIsVisible(scene_, posed, view, plan, grid, settings, stats, geometry_), stats);
     stats.total_seconds = total.Lap();
     if (settings.progress) settings.progress(1.0);
   }
@@ -255,7 +262,7 @@ class Renderer::Frames {
       ParallelFor(missing.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t m = begin; m < end; ++m) {
           const std::size_t i = missing[m];
-          completed_[i] = Completed(Uncompleted(i), posed_->incomplete[i].tex_coord);
+          completed_[i] = Completed(Uncompleted(i), posed_->incomplete[i].normal_map);
         }
       });
     };

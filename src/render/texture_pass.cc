@@ -163,11 +163,11 @@ void DecodeTextures(const Scene& scene, const std::vector<bool>& material_visibl
     const int image = plan.textures[t].image;
     if (std::find(warned.begin(), warned.end(), image) != warned.end()) continue;
     warned.push_back(image);
-    if (entry.problem.empty()) {
-      stats.warnings.push_back(entry.damage);
-      continue;
-    }
-    stats.warnings.push_back(entry.problem + " (drawn without this texture)");
+    // Images of the file may name one picture.
+    const std::string warning = entry.problem.empty() ? entry.damage : entry.problem + " (drawn without this texture)";
+    const bool is_said = std::find(stats.warnings.begin(), stats.warnings.end(), warning) != stats.warnings.end();
+    if (!is_said) stats.warnings.push_back(warning);
+    if (entry.problem.empty()) continue;
     if (std::find(images.begin(), images.end(), image) != images.end()) --stats.images_decoded;
   }
 

@@ -16,11 +16,12 @@ struct Span {
   double duration = 0.0;  // seconds
 };
 
+// Of keys at one time the last counts there: the span before ends at the first of them.
 Span FindSpan(const std::vector<float>& times, double time) {
-  if (!(time > double(times.front()))) return {};
   if (time >= double(times.back())) return {times.size() - 1, times.size() - 1, 0.0, 0.0};
   const auto after = std::upper_bound(times.begin(), times.end(), time, [](double t, float key) { return t < key; });
   const std::size_t next = std::size_t(after - times.begin());
+  if (next <= 1 && !(time > double(times.front()))) return {};
   const double start = double(times[next - 1]);
   const double duration = double(times[next]) - start;
   return {next - 1, next, (time - start) / duration, duration};

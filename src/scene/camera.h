@@ -42,8 +42,7 @@ struct KnownBall {
 //
 // Throws Error(InvalidUsage) for numbers out of range (fields of view outside of (0, pi), angles or matrices that are
 // not finite, a FreeCamera's matrix that is not rigid to 1e-6, a picture without pixels), for a camera that does not
-// exist or that no visible node holds.
-// `known`: may be null.
+// exist or that no node of the scene holds. `known`: may be null.
 ResolvedCamera ResolveCamera(const CameraChoice& choice, const Scene& scene, const PosedScene& posed, int width,
                              int height, KnownBall* known = nullptr);
 

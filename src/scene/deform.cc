@@ -76,7 +76,12 @@ glm::dmat4 Blend(const JointMatrices& matrices, const Primitive& influences, std
   for (const auto& set : influences.weights) {
     for (int c = 0; c < 4; ++c) sum += set[vertex][c] > 0.0f ? double(set[vertex][c]) : 0.0;
   }
-  if (!(sum > 0.0) || !std::isfinite(sum)) return matrices.unskinned_from_mesh;
+  if (sum == 0.0) {  // exporters forget weights; what they meant is most often the first joint
+    const std::size_t joint = influences.joints.empty() ? 0 : influences.joints[0][vertex][0];
+    const bool exists = joint < matrices.local_from_mesh.size();
+    return exists ? matrices.local_from_mesh[joint] : matrices.unskinned_from_mesh;
+  }
+  if (!std::isfinite(sum)) return matrices.unskinned_from_mesh;
   glm::dmat4 blended(0.0);
   for (std::size_t set = 0; set < influences.weights.size(); ++set) {
     for (int c = 0; c < 4; ++c) {

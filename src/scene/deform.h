@@ -22,7 +22,7 @@ void ApplyMorph(const Primitive& primitive, const std::vector<float>& weights, P
 // One skin at one moment.
 struct JointMatrices {
   std::vector<glm::dmat4> local_from_mesh;  // by joint
-  glm::dmat4 unskinned_from_mesh{1.0};      // for vertices whose weights are all zero
+  glm::dmat4 unskinned_from_mesh{1.0};      // for vertices that no joint can be found for
   glm::dmat4 world_from_local{1.0};         // a translation, with a mirror in x where the skin mirrors
 };
 
@@ -33,9 +33,10 @@ JointMatrices PlaceJoints(const Skin& skin, const std::vector<glm::dmat4>& world
                           const glm::dmat4& world_from_mesh_node);
 
 // Skins positions, normals and tangents of `primitive` by the joints and weights of `influences`, which has as many
-// vertices. Weights are divided by their sum; those not above zero have no influence. Normals go with the blended
-// matrix's inverse transpose, from its cofactors, which exist for singular matrices too.
-// Throws Error(InvalidInput), with `where`, if a joint with influence is not one of the skin's.
+// vertices. Weights are divided by their sum; those not above zero have no influence, and a vertex that has no other
+// follows the joint of its first slot. Normals go with the blended matrix's inverse transpose, from its cofactors,
+// which exist for singular matrices too. Throws Error(InvalidInput), with `where`, if a joint with influence is not one
+// of the skin's.
 void ApplySkin(const JointMatrices& matrices, const Primitive& influences, const std::string& where,
                Primitive& primitive);
 

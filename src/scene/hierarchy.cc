@@ -19,6 +19,13 @@ std::vector<int> Roots(const Scene& scene) {
   return roots;
 }
 
+// Where the chosen scene begins.
+std::vector<int> Starts(const Scene& scene, int scene_index) {
+  if (scene_index < 0) scene_index = scene.default_scene;
+  if (scene_index < 0 && !scene.scenes.empty()) scene_index = 0;
+  return scene_index < 0 ? Roots(scene) : scene.scenes[std::size_t(scene_index)].nodes;
+}
+
 }  // namespace
 
 glm::dmat4 ToMatrix(const Transform& transform) {
@@ -39,7 +46,7 @@ Transform ToTransform(const glm::dmat4& matrix) {
   return {glm::dvec3(matrix[3]), rotation, scale};
 }
 
-PosedNodes PlaceNodes(const Scene& scene, const Animation* animation, double time) {
+PosedNodes PlaceNodes(const Scene& scene, int scene_index, const Animation* animation, double time) {
   const std::size_t count = scene.nodes.size();
   PosedNodes posed;
   posed.weights.resize(count);
@@ -75,31 +82,34 @@ PosedNodes PlaceNodes(const Scene& scene, const Animation* animation, double tim
   const auto local = [&](std::size_t i) {
     return scene.nodes[i].matrix && !animated[i] ? *scene.nodes[i].matrix : ToMatrix(transforms[i]);
   };
+  std::vector<bool> in_scene(count, false);  // starts, and as the walk comes to them, those below
+  for (const int start : Starts(scene, scene_index)) in_scene[std::size_t(start)] = true;
   std::vector<int> open = Roots(scene);
   for (const int root : open) posed.world_from_node[std::size_t(root)] = local(std::size_t(root));
   while (!open.empty()) {
     const std::size_t parent = std::size_t(open.back());
     open.pop_back();
-    for (const int child : scene.nodes[parent].children) {
-      posed.world_from_node[std::size_t(child)] = posed.world_from_node[parent] * local(std::size_t(child));
-      open.push_back(child);
+    for (const int index : scene.nodes[parent].children) {
+      const std::size_t child = std::size_t(index);
+      const bool begins_here = in_scene[child] && !in_scene[parent];
+      posed.world_from_node[child] = begins_here ? local(child) : posed.world_from_node[parent] * local(child);
+      if (in_scene[parent]) in_scene[child] = true;
+      open.push_back(index);
     }
   }
   return posed;
 }
 
-std::vector<int> VisibleNodes(const Scene& scene, int scene_index) {
-  if (scene_index < 0) scene_index = scene.default_scene;
-  if (scene_index < 0 && !scene.scenes.empty()) scene_index = 0;
-  const std::vector<int> roots = scene_index < 0 ? Roots(scene) : scene.scenes[std::size_t(scene_index)].nodes;
+std::vector<int> NodesOf(const Scene& scene, int scene_index, bool with_hidden) {
+  const std::vector<int> starts = Starts(scene, scene_index);
   std::vector<int> order;
   std::vector<bool> seen(scene.nodes.size(), false);
-  std::vector<int> open(roots.rbegin(), roots.rend());  // a stack of our own: hierarchies can be deep
+  std::vector<int> open(starts.rbegin(), starts.rend());  // a stack of our own: hierarchies can be deep
   while (!open.empty()) {
     const int index = open.back();
     open.pop_back();
     const Node& node = scene.nodes[std::size_t(index)];
-    if (seen[std::size_t(index)] || !node.visible) continue;
+    if (seen[std::size_t(index)] || !(node.visible || with_hidden)) continue;
     seen[std::size_t(index)] = true;
     order.push_back(index);
     open.insert(open.end(), node.children.rbegin(), node.children.rend());

@@ -21,11 +21,13 @@ glm::dmat4 ToMatrix(const Transform& transform);
 // The transform that a matrix is made of, exact where it has no shear. A mirror becomes a negative x scale.
 Transform ToTransform(const glm::dmat4& matrix);
 
-// Places all nodes, whichever scene they belong to: joints may lie outside of the scene that uses them. `animation` may
-// be null: the rest pose. Needs a valid scene (see ValidateScene).
-PosedNodes PlaceNodes(const Scene& scene, const Animation* animation, double time);
+// Places all nodes, whichever scene they belong to: joints may lie outside of the scene that uses them. The nodes that
+// the chosen scene (-1: the default one) begins with stand by themselves, whatever their parents. `animation` may be
+// null: the rest pose. Needs a valid scene (see ValidateScene).
+PosedNodes PlaceNodes(const Scene& scene, int scene_index, const Animation* animation, double time);
 
-// The visible nodes below the chosen scene's roots, depth first, each once. -1: the default scene.
-std::vector<int> VisibleNodes(const Scene& scene, int scene_index);
+// The nodes of the chosen scene (-1: the default one), depth first, each once; those that are hidden, and what is below
+// them, where they are asked for.
+std::vector<int> NodesOf(const Scene& scene, int scene_index, bool with_hidden);
 
 }  // namespace facet

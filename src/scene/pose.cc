@@ -26,7 +26,7 @@ struct Shape {
   const std::vector<float>* weights = nullptr;  // of the morph targets
   const JointMatrices* joints = nullptr;        // null: not skinned
   bool needs_tangents = false;
-  int tex_coord = 0;  // the UV set of the normal texture
+  TextureRef normal_map;
   bool IsDeformed() const { return morphed || joints != nullptr; }
   bool NeedsNormals() const { return needs_tangents && primitive->normals.empty(); }
   bool IsCopy() const { return IsDeformed() || NeedsNormals(); }  // flat normals want vertices of their own
@@ -78,7 +78,7 @@ Shape MakeShape(const Scene& scene, const Primitive& primitive, int material, co
     const Material& used = scene.materials[std::size_t(material)];
     shape.needs_tangents = settings.normal_textures && ReadsNormalMap(scene, used) &&
                            (settings.generate_tangents || primitive.normals.empty() || primitive.tangents.empty());
-    shape.tex_coord = used.normal_texture.tex_coord;
+    shape.normal_map = used.normal_texture;
   }
   return shape;
 }
@@ -150,8 +150,8 @@ Plan MakePlan(const Scene& scene, const PoseSettings& settings) {
   Plan plan;
   const Animation* animation =
       settings.animation < 0 ? nullptr : &scene.animations[std::size_t(settings.animation)];
-  plan.nodes = PlaceNodes(scene, animation, settings.time);
-  plan.visible = VisibleNodes(scene, settings.scene);
+  plan.nodes = PlaceNodes(scene, settings.scene, animation, settings.time);
+  plan.visible = NodesOf(scene, settings.scene, /*with_hidden=*/false);
   SharedShapes shared;
   for (const int index : plan.visible) {
     if (scene.nodes[std::size_t(index)].mesh < 0) continue;
@@ -177,7 +177,7 @@ Primitive BuildCopy(const Shape& shape) {
     copy.weights = shape.primitive->weights;
   }
   if (shape.NeedsNormals()) MakeFlat(copy);
-  if (shape.needs_tangents) MakeTangents(shape.tex_coord, copy);
+  if (shape.needs_tangents) MakeTangents(shape.normal_map, copy);
   if (shape.joints != nullptr) {
     ApplySkin(*shape.joints, shape.needs_tangents ? copy : *shape.primitive, shape.where, copy);
   }
@@ -196,20 +196,26 @@ Bounds BoundsOfShape(const Shape& shape, std::vector<glm::vec3>& positions) {
   return BoundsOf(positions);
 }
 
-void PlaceLightsAndCameras(const Scene& scene, const Plan& plan, PosedScene& posed) {
+void PlaceLights(const Scene& scene, const Plan& plan, PosedScene& posed) {
   for (const int index : plan.visible) {
     const Node& node = scene.nodes[std::size_t(index)];
+    if (node.light < 0) continue;
     const glm::dmat4& world_from_node = plan.nodes.world_from_node[std::size_t(index)];
-    if (node.light >= 0) {
-      PosedLight light;
-      light.light = &scene.lights[std::size_t(node.light)];
-      light.position_world = glm::dvec3(world_from_node[3]);
-      const glm::dvec3 backward(world_from_node[2]);
-      const double length = std::sqrt(glm::dot(backward, backward));
-      if (length > 0.0 && std::isfinite(length)) light.direction_world = -backward / length;
-      posed.lights.push_back(light);
-    }
-    if (node.camera >= 0) posed.cameras.push_back({node.camera, world_from_node});
+    PosedLight light;
+    light.light = &scene.lights[std::size_t(node.light)];
+    light.position_world = glm::dvec3(world_from_node[3]);
+    const glm::dvec3 backward(world_from_node[2]);
+    const double length = std::sqrt(glm::dot(backward, backward));
+    if (length > 0.0 && std::isfinite(length)) light.direction_world = -backward / length;
+    posed.lights.push_back(light);
+  }
+}
+
+void PlaceCameras(const Scene& scene, int scene_index, const Plan& plan, PosedScene& posed) {
+  if (scene.cameras.empty()) return;
+  for (const int index : NodesOf(scene, scene_index, /*with_hidden=*/true)) {
+    const int camera = scene.nodes[std::size_t(index)].camera;
+    if (camera >= 0) posed.cameras.push_back({camera, plan.nodes.world_from_node[std::size_t(index)]});
   }
 }
 
@@ -266,17 +272,18 @@ PosedScene PoseIncomplete(const Scene& scene, const PoseSettings& settings) {
       AddPlaced(positions_of(i), local[i], plan.drawables[drawable].world_from_mesh, posed.bounds);
     }
     if (plan.shapes[i].needs_tangents && !plan.shapes[i].IsCopy()) {
-      posed.incomplete.push_back({drawables_of_shape[i], plan.shapes[i].tex_coord});
+      posed.incomplete.push_back({drawables_of_shape[i], plan.shapes[i].normal_map});
     }
   }
   posed.drawables = std::move(plan.drawables);
-  PlaceLightsAndCameras(scene, plan, posed);
+  PlaceLights(scene, plan, posed);
+  PlaceCameras(scene, settings.scene, plan, posed);
   return posed;
 }
 
-Primitive Completed(const Primitive& geometry, int tex_coord) {
+Primitive Completed(const Primitive& geometry, const TextureRef& normal_map) {
   Primitive copy = CopyWithoutDeformers(geometry);
-  MakeTangents(tex_coord, copy);
+  MakeTangents(normal_map, copy);
   return copy;
 }
 
@@ -289,7 +296,7 @@ PosedScene Pose(const Scene& scene, const PoseSettings& settings) {
   ParallelFor(incomplete.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       Primitive& completed = posed.owned[first + i];
-      completed = Completed(*posed.drawables[incomplete[i].drawables[0]].geometry, incomplete[i].tex_coord);
+      completed = Completed(*posed.drawables[incomplete[i].drawables[0]].geometry, incomplete[i].normal_map);
       for (const std::size_t drawable : incomplete[i].drawables) posed.drawables[drawable].geometry = &completed;
     }
   });

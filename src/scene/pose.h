@@ -45,7 +45,7 @@ struct PosedLight {
 // Geometry of the scene that has no tangents, though the material it is drawn with reads a normal map.
 struct IncompleteGeometry {
   std::vector<std::size_t> drawables;  // that draw it, all with one material
-  int tex_coord = 0;                   // the UV set of the normal map
+  TextureRef normal_map;
 };
 
 struct PosedCamera {
@@ -61,7 +61,7 @@ struct PosedScene {
   PoseSettings settings;        // that it was made with
   std::vector<Drawable> drawables;  // in the order of a depth-first walk of the scene's roots
   std::vector<PosedLight> lights;
-  std::vector<PosedCamera> cameras;
+  std::vector<PosedCamera> cameras;  // those of hidden nodes, too
   Bounds bounds;  // of all vertices of all drawables
   std::deque<Primitive> owned;  // deformed or completed copies
   std::vector<IncompleteGeometry> incomplete;  // none by Pose()
@@ -80,7 +80,7 @@ PosedScene PoseIncomplete(const Scene& scene, const PoseSettings& settings);
 // What Pose() draws in place of incomplete geometry, which has normals: the same triangles in the same order, with
 // tangents.
 // Thread-safe.
-Primitive Completed(const Primitive& geometry, int tex_coord);
+Primitive Completed(const Primitive& geometry, const TextureRef& normal_map);
 
 // The bounds only, without keeping deformed geometry.
 Bounds PosedBounds(const Scene& scene, const PoseSettings& settings);

@@ -307,15 +307,33 @@ void StoreByVertex(const std::vector<glm::vec4>& corner_tangents, Primitive& pri
   primitive.tangents = std::move(tangents);
 }
 
+// The UVs as `map` turns and mirrors them. How far it moves and stretches them has no influence on directions.
+std::vector<glm::vec2> Turned(const std::vector<glm::vec2>& uvs, const TextureRef& map) {
+  const double c = Cos(double(map.rotation)), s = Sin(double(map.rotation));
+  const glm::dvec2 scale(map.scale);
+  std::vector<glm::vec2> turned(uvs.size());
+  for (std::size_t i = 0; i < uvs.size(); ++i) {
+    const glm::dvec2 uv = scale * glm::dvec2(uvs[i]);
+    turned[i] = glm::vec2(glm::dvec2(c * uv.x + s * uv.y, c * uv.y - s * uv.x));
+  }
+  return turned;
+}
+
+bool TurnsOrMirrors(const TextureRef& map) {
+  return map.rotation != 0.0f || !(map.scale.x > 0.0f && map.scale.y > 0.0f);
+}
+
 }  // namespace
 
-void MakeTangents(int tex_coord, Primitive& primitive) {
+void MakeTangents(const TextureRef& normal_map, Primitive& primitive) {
   if (primitive.topology != Topology::Triangles || primitive.indices.empty()) MakeTriangleList(primitive);
   primitive.indices.resize(primitive.indices.size() / 3 * 3);
-  const bool has_uvs =
-      std::size_t(tex_coord) < primitive.tex_coords.size() && !primitive.tex_coords[std::size_t(tex_coord)].empty();
-  if (has_uvs) {
-    StoreByVertex(TangentMaker(primitive, primitive.tex_coords[std::size_t(tex_coord)]).Make(), primitive);
+  const std::size_t set = std::size_t(normal_map.tex_coord);
+  if (set < primitive.tex_coords.size() && !primitive.tex_coords[set].empty()) {
+    const std::vector<glm::vec2>& uvs = primitive.tex_coords[set];
+    const std::vector<glm::vec2> turned =
+        TurnsOrMirrors(normal_map) ? Turned(uvs, normal_map) : std::vector<glm::vec2>();
+    StoreByVertex(TangentMaker(primitive, turned.empty() ? uvs : turned).Make(), primitive);
     return;
   }
   primitive.tangents.resize(primitive.normals.size());

@@ -5,11 +5,12 @@
 
 namespace facet {
 
-// Gives `primitive`, of triangles in any form and with normals, tangents for a normal map that is read with UV set
-// `tex_coord`: xyz unit and along increasing u, w the sign s in bitangent = s * cross(normal, tangent), which points
-// along decreasing v (up in the picture). Triangle strips and fans become lists. A vertex whose triangles need
-// different tangents is split: the first stays, copies are appended, indices follow. Without that UV set the tangents
-// are any that are perpendicular to the normal, with w = 1.
+// Gives `primitive`, of triangles in any form and with normals, tangents for `normal_map`: xyz unit and along
+// increasing u, w the sign s in bitangent = s * cross(normal, tangent), which points along decreasing v (up in the
+// picture), where u and v are the coordinates the map is read at, those of its UV set after its KHR_texture_transform.
+// Triangle strips and fans become lists. A vertex whose triangles need different tangents is split: the first stays,
+// copies are appended, indices follow. Without that UV set the tangents are any that are perpendicular to the normal,
+// with w = 1.
 //
 // The result agrees with MikkTSpace, on which the bakers of normal maps have settled, to the rounding of its floats
 // (below 0.01 degrees on models that are not degenerate). We deviate where it gives no usable tangent: ours are always
@@ -17,6 +18,6 @@ namespace facet {
 // more than 256 corners share a tangent). Takes O(n log n) for n corners, whatever the mesh.
 // Source: Mikkelsen 2008, Simulation of wrinkled surfaces revisited (thesis, University of Copenhagen), chapter 3 and
 // appendix A; glTF 2.0 specification, section 3.7.2.1, which turns its v around.
-void MakeTangents(int tex_coord, Primitive& primitive);
+void MakeTangents(const TextureRef& normal_map, Primitive& primitive);
 
 }  // namespace facet

@@ -126,7 +126,7 @@ void CheckChannel(const AnimationChannel& channel, const Scene& scene, const std
   CheckIndex(channel.node, scene.nodes.size(), true, where, "node");
   for (std::size_t i = 0; i < channel.times.size(); ++i) {
     if (!std::isfinite(channel.times[i])) Fail(where, At("time", i) + " is not finite");
-    if (i > 0 && !(channel.times[i] > channel.times[i - 1])) Fail(where, At("time", i) + " does not increase");
+    if (i > 0 && !(channel.times[i] >= channel.times[i - 1])) Fail(where, At("time", i) + " decreases");
   }
   const std::size_t keys = channel.times.size() * (channel.interpolation == Interpolation::CubicSpline ? 3 : 1);
   if (channel.path == AnimationPath::Weights) {

@@ -121,6 +121,7 @@ class MaterialView {
       : m_(material), ahead_(ahead) {}
 
   HWY_INLINE bool Lit() const { return m_.Has(kLit); }
+  HWY_INLINE bool Emits() const { return m_.Has(kEmission); }
 
   // Factor times texture times vertex colour, straight alpha. Linear. An opaque material's texture has no alpha: glTF
   // ignores it, and it is not kept unless another material reads it.
@@ -166,7 +167,7 @@ class MaterialView {
     if (m_.Has(kOcclusionTexture)) {
       occlusion = occlusion + T(m_.occlusion_strength) * (textures.template Read<kR>(m_.occlusion_texture).x - T(1.0f));
     }
-    const Vec3<T> emissive = m_.Has(kEmission) ? Emissive(textures) : Vec3<T>{T(0.0f), T(0.0f), T(0.0f)};
+    const Vec3<T> emissive = Emits() ? Emissive(textures) : Vec3<T>{T(0.0f), T(0.0f), T(0.0f)};
     return {Xyz(base), base.w, metallic, perceptual_roughness, Normal(s, textures), occlusion, emissive};
   }
 

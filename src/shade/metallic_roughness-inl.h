@@ -20,7 +20,7 @@ struct MetallicRoughness {
                                   const LightingView<T>& lighting) const {
     if (!material.Lit()) {
       const Vec4<T> color = material.BaseColor(surface);
-      return {Xyz(color), color.w};
+      return {material.Emits() ? Xyz(color) + material.Emissive(surface) : Xyz(color), color.w};
     }
     const MaterialInputs<T> inputs = material.Inputs(surface);
     return {ShadeMetallicRoughness(inputs, surface.view, surface.position, lighting), inputs.alpha_coverage};

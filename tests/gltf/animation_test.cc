@@ -73,45 +73,67 @@ TEST(Animation, MorphWeightsHaveOneNumberForEachTarget) {
   EXPECT_EQ(First(loaded).values, (std::vector<float>{0, 1, 51.0f / 255.0f, 0, 1, 0}));
 }
 
-TEST(Animation, WrongSizesAndTypesAreRefused) {
+void ExpectLeftOut(const std::string& file) {
+  const LoadedScene loaded = LoadBytes(file);
+  EXPECT_TRUE(loaded.scene.animations.at(0).channels.empty());
+  ASSERT_EQ(loaded.report.warnings.size(), 1u);
+  EXPECT_EQ(loaded.report.warnings[0].rfind("animations[0].channels[0]: ignored (animations[0].samplers[0]", 0), 0u)
+      << loaded.report.warnings[0];
+}
+
+TEST(Animation, ChannelsOfWrongSizesAndTypesAreLeftOut) {
   {
     FileMaker file;
     file.Attribute("POSITION", file.Triangle());
     const int times = file.Floats({0, 1, 2}, "SCALAR", 1);
-    LoadError(Animated(file, times, file.Floats({1, 2, 3, 4, 5, 6}, "VEC3", 3), "translation", ""),
-              ErrorCode::InvalidInput);
+    ExpectLeftOut(Animated(file, times, file.Floats({1, 2, 3, 4, 5, 6}, "VEC3", 3), "translation", ""));
   }
   {
     FileMaker file;
     file.Attribute("POSITION", file.Triangle());
     const int times = file.Floats({0, 1}, "SCALAR", 1);
-    LoadError(Animated(file, times, file.Floats({1, 2, 3, 4, 5, 6}, "VEC3", 3), "rotation", ""),
-              ErrorCode::InvalidInput);
+    ExpectLeftOut(Animated(file, times, file.Floats({1, 2, 3, 4, 5, 6}, "VEC3", 3), "rotation", ""));
   }
   {
     FileMaker file;
     file.Attribute("POSITION", file.Triangle());
-    const int times = file.Accessor(file.View(Pack<std::uint16_t>({0, 1})), 5123, 2, "SCALAR");
-    LoadError(Animated(file, times, file.Floats({1, 2, 3, 4, 5, 6}, "VEC3", 3), "scale", ""), ErrorCode::InvalidInput);
+    const int times = file.Floats({0, 1, 2, 3}, "VEC2", 2);
+    ExpectLeftOut(Animated(file, times, file.Floats({1, 2, 3, 4, 5, 6}, "VEC3", 3), "scale", ""));
   }
   {
     FileMaker file;  // a cubic spline needs three values for each key
     file.Attribute("POSITION", file.Triangle());
     const int times = file.Floats({0, 1}, "SCALAR", 1);
-    LoadError(Animated(file, times, file.Floats({1, 2, 3, 4, 5, 6}, "VEC3", 3), "scale", "CUBICSPLINE"),
-              ErrorCode::InvalidInput);
+    ExpectLeftOut(Animated(file, times, file.Floats({1, 2, 3, 4, 5, 6}, "VEC3", 3), "scale", "CUBICSPLINE"));
+  }
+  {
+    FileMaker file;  // of no keys
+    file.Attribute("POSITION", file.Triangle());
+    const int times = file.Accessor(-1, 5126, 0, "SCALAR");
+    ExpectLeftOut(Animated(file, times, file.Floats({1, 2, 3, 4, 5, 6}, "VEC3", 3), "scale", ""));
   }
 }
 
-TEST(Animation, KeysThatDoNotIncreaseAreDropped) {
+TEST(Animation, KeysWhoseTimesDecreaseAreDropped) {
   FileMaker file;
   file.Attribute("POSITION", file.Triangle());
   const int times = file.Floats({0, 1, 1, 0.5f, 2}, "SCALAR", 1);
   const int values = file.Floats({0, 0, 0, 1, 1, 1, 2, 2, 2, 3, 3, 3, 4, 4, 4}, "VEC3", 3);
   const LoadedScene loaded = LoadBytes(Animated(file, times, values, "translation", ""));
-  EXPECT_EQ(First(loaded).times, (std::vector<float>{0, 1, 2}));
-  EXPECT_EQ(First(loaded).values, (std::vector<float>{0, 0, 0, 1, 1, 1, 4, 4, 4}));
-  EXPECT_EQ(loaded.report.warnings.size(), 1u);
+  EXPECT_EQ(First(loaded).times, (std::vector<float>{0, 1, 1, 2})) << "two at one time make a jump";
+  EXPECT_EQ(First(loaded).values, (std::vector<float>{0, 0, 0, 1, 1, 1, 2, 2, 2, 4, 4, 4}));
+  EXPECT_EQ(loaded.report.warnings.size(), 2u);
+}
+
+TEST(Animation, TimesOfIntegersAndValuesTooManyAreRead) {
+  FileMaker file;
+  file.Attribute("POSITION", file.Triangle());
+  const int times = file.Accessor(file.View(Pack<std::uint16_t>({0, 3})), 5123, 2, "SCALAR");
+  const LoadedScene loaded =
+      LoadBytes(Animated(file, times, file.Floats({1, 2, 3, 4, 5, 6, 7, 8, 9}, "VEC3", 3), "scale", ""));
+  EXPECT_EQ(First(loaded).times, (std::vector<float>{0, 3}));
+  EXPECT_EQ(First(loaded).values, (std::vector<float>{1, 2, 3, 4, 5, 6}));
+  EXPECT_EQ(loaded.report.warnings.size(), 2u);
 }
 
 TEST(Animation, ChannelsThatMoveNothingAreLeftOut) {
@@ -127,7 +149,7 @@ TEST(Animation, ChannelsThatMoveNothingAreLeftOut) {
   matrix.NodeMore() = ",\"matrix\":[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]";
   const int key = matrix.Floats({0}, "SCALAR", 1);
   const LoadedScene loaded_matrix = LoadBytes(Animated(matrix, key, matrix.Floats({1, 2, 3}, "VEC3", 3), "scale", ""));
-  EXPECT_TRUE(loaded_matrix.scene.animations.at(0).channels.empty());
+  EXPECT_EQ(loaded_matrix.scene.animations.at(0).channels.size(), 1u) << "the matrix is taken apart";
   EXPECT_EQ(loaded_matrix.report.warnings.size(), 1u);
 }
 

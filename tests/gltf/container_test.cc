@@ -74,6 +74,68 @@ TEST(Container, GarbageAndFlippedBytesNeverCrash) {
   }
 }
 
+// A triangle whose JSON ends `padding` bytes before its chunk does.
+struct Parts {
+  std::string json, bin;
+};
+
+Parts PartsOf(std::size_t padding) {
+  FileMaker file;
+  file.Attribute("POSITION", file.Triangle());
+  std::string json = file.Json();
+  while (json.size() % 4 != 0) json.insert(json.size() - 1, " ");
+  return {json + std::string(padding, ' '), file.Bin()};
+}
+
+std::string GlbOf(const Parts& parts, std::size_t json_length, std::size_t bin_length, std::size_t length,
+                  const std::string& tail = {}) {
+  return "glTF" + U32(2) + U32(length) + U32(json_length) + "JSON" + parts.json + U32(bin_length) +
+         std::string("BIN\0", 4) + parts.bin + tail;
+}
+
+bool IsWhole(const LoadedScene& loaded) {
+  const auto& meshes = loaded.scene.meshes;
+  return meshes.size() == 1 && meshes[0].primitives.at(0).positions.at(2) == glm::vec3(0, 1, 0);
+}
+
+TEST(Container, WrongLengthsAreWarningsThatNameThem) {
+  for (const std::size_t padding : {0u, 1u, 2u, 3u, 4u}) {
+    const Parts parts = PartsOf(padding);
+    const std::size_t json = parts.json.size(), bin = parts.bin.size(), all = 28 + json + bin;
+    const auto expect = [&](const std::string& glb, std::size_t number, const std::string& what) {
+      SCOPED_TRACE(what + " " + std::to_string(number) + ", padding " + std::to_string(padding));
+      LoadedScene loaded;
+      ASSERT_NO_THROW(loaded = LoadBytes(glb));
+      EXPECT_TRUE(IsWhole(loaded));
+      ASSERT_FALSE(loaded.report.warnings.empty());
+      EXPECT_NE(loaded.report.warnings[0].find(std::to_string(number)), std::string::npos) << loaded.report.warnings[0];
+    };
+    EXPECT_TRUE(LoadBytes(GlbOf(parts, json, bin, all)).report.warnings.empty());
+    for (const std::size_t off : {1u, 2u, 3u, 4u, 5u, 7u, 8u, 16u}) {
+      expect(GlbOf(parts, json, bin, all + off), all + off, "header");
+      expect(GlbOf(parts, json, bin, all - off), all - off, "header");
+      expect(GlbOf(parts, json - off, bin, all), json - off, "JSON chunk");
+      expect(GlbOf(parts, json + off, bin, all), json + off, "JSON chunk");
+      expect(GlbOf(parts, json, bin + off, all), bin + off, "BIN chunk");
+      expect(GlbOf(parts, json, bin - off, all), off, "bytes after the BIN chunk");
+      expect(GlbOf(parts, json, bin, all, std::string(off, 'x')), off, "bytes after the end");
+      expect(GlbOf(parts, json, bin, all + off, std::string(off, 'x')), off, "bytes after the last chunk");
+    }
+    expect(GlbOf(parts, json, bin, 0), 0, "header");
+    expect(GlbOf(parts, json, bin, 20 + json), 20 + json, "header that forgets the BIN chunk");
+    expect(GlbOf(parts, json, bin, 0xFFFFFFFF), 0xFFFFFFFF, "header");
+  }
+}
+
+TEST(Container, WhatIsCutOffOfNeededBytesIsAnErrorThatSaysWhatIsThere) {
+  const std::string glb = SmallGlb();
+  const std::string message = LoadError(glb.substr(0, glb.size() - 4), ErrorCode::InvalidInput);
+  EXPECT_NE(message.find("buffers[0] has 32 bytes and declares 36"), std::string::npos) << message;
+  EXPECT_NE(
+      LoadError("glTF" + U32(2) + U32(99), ErrorCode::InvalidInput).find("ends after 12 bytes, within its headers"),
+      std::string::npos);
+}
+
 TEST(Container, ChunkRules) {
   EXPECT_NE(LoadError("glTF" + U32(1) + U32(20) + U32(0) + "JSON", ErrorCode::Unsupported).find("version 1"),
             std::string::npos);
@@ -104,8 +166,11 @@ TEST(Container, NotGltfAtAll) {
   LoadError("[]", ErrorCode::InvalidInput);
   LoadError("{}", ErrorCode::InvalidInput);
   LoadError(R"({"asset":{"version":"\xff"}})", ErrorCode::InvalidInput);
-  LoadError(R"({"asset":{"version":"2.0"},"scene":"0"})", ErrorCode::InvalidInput);
-  LoadError(R"({"asset":{"version":"1.0"}})", ErrorCode::Unsupported);
+  for (const char* first : {R"({"asset":{"version":"1.0"}})", R"({"asset":{"version":1.0}})", R"({"meshes":{"a":{}}})",
+                            R"({"asset":{"version":"1.0.1"}})", R"({"asset":{},"meshes":{"a":{}}})"}) {
+    EXPECT_NE(LoadError(first, ErrorCode::Unsupported).find("glTF 1.0 is not supported; convert it to glTF 2.0"),
+              std::string::npos);
+  }
   LoadError(R"({"asset":{"version":"2.1","minVersion":"2.1"}})", ErrorCode::Unsupported);
   EXPECT_THROW(LoadGltf("/nonexistent/file.glb"), Error);
   const TempFolder folder;

@@ -93,8 +93,10 @@ class FileMaker {
                         type, "\"", more, "}"});
     return accessor_count_++;
   }
-  int Floats(std::initializer_list<float> values, const std::string& type, int components) {
-    return Accessor(View(Pack(values)), 5126, values.size() / static_cast<std::size_t>(components), type);
+  int Floats(const std::vector<float>& values, const std::string& type, int components) {
+    std::string bytes(values.size() * sizeof(float), '\0');
+    std::memcpy(bytes.data(), values.data(), bytes.size());
+    return Accessor(View(bytes), 5126, values.size() / static_cast<std::size_t>(components), type);
   }
   // Three vertices.
   int Triangle() { return Floats({0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3", 3); }

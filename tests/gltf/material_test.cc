@@ -96,7 +96,11 @@ TEST(MaterialFile, SamplersAndTheirDefaults) {
     EXPECT_EQ(sampler.minification, minification) << value;
     EXPECT_EQ(sampler.mip, mip) << value;
   }
-  LoadError(Root(R"("samplers":[{"wrapS":1}])"), ErrorCode::InvalidInput);
+  const Sampler unknown = read("{\"wrapS\":10496,\"wrapT\":-1,\"magFilter\":1,\"minFilter\":\"LINEAR\"}");
+  EXPECT_EQ(unknown.wrap_u, Wrap::Repeat);
+  EXPECT_EQ(unknown.wrap_v, Wrap::Repeat);
+  EXPECT_EQ(unknown.magnification, Filter::Linear);
+  EXPECT_EQ(unknown.mip, MipFilter::Linear);
 }
 
 TEST(MaterialFile, TexturesOfExtensions) {
@@ -179,6 +183,28 @@ TEST(MaterialFile, MissingPicturesAreAWarningAndAnErrorWhenDecoded) {
   const LoadedScene broken = LoadBytes(Root(R"("images":[{"uri":"data:image/png;base64,AAAA"}])"));
   EXPECT_TRUE(broken.report.warnings.empty());
   EXPECT_THROW(broken.scene.images.at(0).source->Decode(), Error);
+}
+
+TEST(MaterialFile, AMissingPictureIsSaidOnce) {
+  // Images that name one file, and textures that use them; of a texture without a picture nothing is decoded.
+  const LoadedScene loaded = LoadBytes(Root(R"("images":[{"uri":"no.png"},{"uri":"no.png"}],
+      "textures":[{"source":0},{"source":1},{"source":0}])"));
+  ASSERT_EQ(loaded.report.warnings.size(), 1u);
+  EXPECT_NE(loaded.report.warnings[0].find("no.png\" does not exist) (and in 1 more place)"), std::string::npos)
+      << loaded.report.warnings[0];
+  for (const Texture& texture : loaded.scene.textures) EXPECT_EQ(texture.image, -1);
+  // The other picture of a texture stands in.
+  const LoadedScene other = LoadBytes(Root(R"("images":[{"uri":"no.png"},{"uri":"data:image/webp;base64,AAAA"}],
+      "textures":[{"source":0,"extensions":{"EXT_texture_webp":{"source":1}}}])"));
+  EXPECT_EQ(other.scene.textures[0].image, 1);
+}
+
+TEST(MaterialFile, Base64OfPicturesMayHaveBlanks) {
+  std::string spread;
+  for (const char c : std::string(kOnePixelPng)) spread += std::string(1, c) + (spread.size() % 3 ? "\\n" : " ");
+  const LoadedScene loaded = LoadBytes(Root("\"images\":[{\"uri\":\"data:image/png; BASE64 ," + spread + "\"}]"));
+  EXPECT_TRUE(loaded.report.warnings.empty());
+  EXPECT_EQ(loaded.scene.images.at(0).source->Decode().width, 1);
 }
 
 }  // namespace

@@ -187,7 +187,7 @@ TEST(Meshopt, ClaimsBeyondTheBytesAreRefusedBeforeMemoryIsTaken) {
       "bufferViews":[{"buffer":1,"byteLength":4000000000000,"byteStride":16,"extensions":{"EXT_meshopt_compression":
       {"buffer":0,"byteLength":64,"byteStride":16,"count":250000000000,"mode":"ATTRIBUTES"}}}],
       "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}],
-      "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}]})";
+      "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"nodes":[{"mesh":0}]})";
   LoadError(testing::Glb(json, std::string(64, 'x')), ErrorCode::InvalidInput);
 }
 

@@ -84,11 +84,29 @@ TEST(Primitive, VerticesFarFromTheIndicesAreLeftOut) {
   EXPECT_EQ(First(loaded).tex_coords.at(0), (std::vector<glm::vec2>{{0, 1}, {.5f, 0}, {1, 1}}));
 }
 
-TEST(Primitive, AttributeCountsMustAgree) {
+TEST(Primitive, AttributesOfTooFewElementsAreLeftOut) {
   FileMaker file;
   file.Attribute("POSITION", file.Triangle());
   file.Attribute("TEXCOORD_0", file.Floats({0, 0, 1, 1}, "VEC2", 2));
-  EXPECT_NE(LoadError(file.AsGlb(), ErrorCode::InvalidInput).find("TEXCOORD_0"), std::string::npos);
+  file.Attribute("TEXCOORD_1", file.Floats({0, 0, 1, 1, 2, 2, 3, 3}, "VEC2", 2));
+  const LoadedScene loaded = LoadBytes(file.AsGlb());
+  EXPECT_TRUE(First(loaded).tex_coords.at(0).empty());
+  EXPECT_EQ(First(loaded).tex_coords.at(1), (std::vector<glm::vec2>{{0, 0}, {1, 1}, {2, 2}}));
+  EXPECT_EQ(loaded.report.warnings.size(), 2u);
+}
+
+TEST(Primitive, WithoutVerticesOrIndicesItIsLeftOut) {
+  FileMaker vertices;
+  vertices.Attribute("POSITION", vertices.Accessor(vertices.View("...."), 5126, 0, "VEC3"));
+  FileMaker indices;
+  indices.Attribute("POSITION", indices.Triangle());
+  indices.PrimitiveMore() = ",\"indices\":" + std::to_string(indices.Accessor(-1, 5123, 0, "SCALAR"));
+  for (const FileMaker& file : {vertices, indices}) {
+    const LoadedScene loaded = LoadBytes(file.AsGlb());
+    EXPECT_TRUE(loaded.scene.meshes.at(0).primitives.empty());
+    ASSERT_EQ(loaded.report.warnings.size(), 1u);
+    EXPECT_EQ(loaded.report.warnings[0].rfind("meshes[0].primitives[0]: ignored: the primitive has no ", 0), 0u);
+  }
 }
 
 TEST(Primitive, WithoutPositionsItIsLeftOut) {
@@ -133,7 +151,9 @@ TEST(Primitive, JointsAndWeightsOfManySets) {
   ASSERT_EQ(First(loaded).joints.size(), 3u);
   EXPECT_EQ(First(loaded).joints[2][0], glm::u16vec4(2, 0, 0, 0)) << "200 has no weight, and is cleared";
   EXPECT_EQ(First(loaded).weights[1][1], glm::vec4(51.0f / 255.0f, 0, 0, 0));
-  EXPECT_TRUE(loaded.report.warnings.empty());
+  EXPECT_EQ(loaded.report.warnings,
+            std::vector<std::string>{
+                "meshes[0].primitives[0]: 1 vertices without weights follow the joint of their first slot"});
 }
 
 TEST(Primitive, AJointThatTheSkinDoesNotHaveIsRefused) {

@@ -35,7 +35,11 @@ TEST(Uri, Base64OfEveryLengthAndItsMistakes) {
   EXPECT_EQ(Text(DecodeBase64("-_-_")), Text(DecodeBase64("+/+/")));
   EXPECT_EQ(Text(DecodeBase64("Zm9v!")), "(malformed)");
   EXPECT_EQ(Text(DecodeBase64("Z")), "(malformed)");
-  EXPECT_EQ(Text(DecodeBase64("Zm 9")), "(malformed)");
+  EXPECT_EQ(Text(DecodeBase64("Zm 9")), "fo") << "blanks do not count";
+  EXPECT_EQ(Text(DecodeBase64(" Zm9v\r\nYmFy\t\n")), "foobar");
+  EXPECT_EQ(Text(DecodeBase64("Zg = =\n")), "f");
+  EXPECT_EQ(Text(DecodeBase64("Zm 9!")), "(malformed)");
+  EXPECT_EQ(Text(DecodeBase64(" Z ")), "(malformed)");
   std::string every;
   for (int i = 0; i < 256; ++i) every += static_cast<char>(i);
   for (std::size_t length = 0; length < every.size(); ++length) {
@@ -47,16 +51,19 @@ TEST(Uri, DataUris) {
   EXPECT_EQ(Text(DecodeDataUri("data:application/octet-stream;base64,Zm9v")), "foo");
   EXPECT_EQ(Text(DecodeDataUri("DATA:;base64,Zm9v")), "foo");
   EXPECT_EQ(Text(DecodeDataUri("data:;base64,Zm9%76")), "foo");
+  EXPECT_EQ(Text(DecodeDataUri("data:;base64,Zm%0A9%0D%76")), "foo");
+  EXPECT_EQ(Text(DecodeDataUri(" data:image/png; charset=x; Base64 ,Zm9v")), "foo");
   EXPECT_EQ(Text(DecodeDataUri("data:text/plain,a%20b%00c")), std::string("a b\0c", 5));
   EXPECT_EQ(Text(DecodeDataUri("data:application/octet-stream;base64")), "(malformed)");
 }
 
 TEST(Uri, OnlyRelativeReferencesAreFollowed) {
-  EXPECT_FALSE(gltf::ResolveRelative("/folder", "https://example.com/a.bin"));
-  EXPECT_FALSE(gltf::ResolveRelative("/folder", "file:///etc/hostname"));
-  EXPECT_FALSE(gltf::ResolveRelative("/folder", "/etc/hostname"));
-  EXPECT_FALSE(gltf::ResolveRelative("/folder", "a%00b"));
-  EXPECT_EQ(gltf::ResolveRelative("/folder", "sub/a%20b.bin"), std::filesystem::path("/folder/sub/a b.bin"));
+  const auto resolve = [](const char* uri) { return gltf::ResolveRelative("/folder", uri, gltf::Place("a.gltf")); };
+  EXPECT_FALSE(resolve("https://example.com/a.bin"));
+  EXPECT_FALSE(resolve("file:///etc/hostname"));
+  EXPECT_FALSE(resolve("/etc/hostname"));
+  EXPECT_FALSE(resolve("a%00b"));
+  EXPECT_EQ(resolve("sub/a%20b.bin"), std::filesystem::path("/folder/sub/a b.bin"));
 }
 
 // The buffer's file is called `file_name`, and the glTF file calls it `uri`.
@@ -82,6 +89,21 @@ TEST(Uri, BufferFileNames) {
     EXPECT_EQ(loaded.scene.meshes.at(0).primitives.at(0).positions.at(1), glm::vec3(1, 0, 0)) << uri;
     EXPECT_TRUE(loaded.report.warnings.empty()) << uri;
   }
+}
+
+TEST(Uri, BackslashesAreSlashesWhereTheNameDoesNotExist) {
+  const TempFolder folder;
+  std::filesystem::create_directory(folder.Path() / "sub");
+  FileMaker file;
+  file.Attribute("POSITION", file.Triangle());
+  folder.Write("sub/a b.bin", file.Bin());
+  for (const char* uri : {"sub\\\\a b.bin", ".\\\\sub\\\\a%20b.bin", "sub%5Ca%20b.bin"}) {
+    const LoadedScene loaded = LoadGltf(folder.Write("s.gltf", file.Json(uri)));
+    EXPECT_EQ(loaded.scene.meshes.at(0).primitives.at(0).positions.at(1), glm::vec3(1, 0, 0)) << uri;
+    EXPECT_EQ(loaded.report.warnings, std::vector<std::string>{"buffers[0].uri: backslashes are read as slashes"});
+  }
+  folder.Write("sub\\a b.bin", file.Bin());
+  EXPECT_TRUE(LoadGltf(folder.Write("s.gltf", file.Json("sub\\\\a b.bin"))).report.warnings.empty()) << "it exists";
 }
 
 TEST(Uri, MissingBufferNamesTheFile) {

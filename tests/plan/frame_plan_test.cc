@@ -123,9 +123,11 @@ TEST(FramePlan, TexturesAreSharedByRoleAndUvSetsByNumber) {
   EXPECT_EQ(planned.textures[4], -1);
 }
 
-TEST(FramePlan, PointsAndLinesWithoutNormalsAreUnlit) {
+TEST(FramePlan, PointsAndLinesWithoutNormalsAreUnlitButEmit) {
   Scene scene;
-  const int material = AddMaterial(scene, Material());
+  Material glowing;
+  glowing.emissive_factor = {0, 0.5f, 0};
+  const int material = AddMaterial(scene, glowing);
   for (Topology topology : {Topology::Points, Topology::Lines, Topology::Triangles}) {
     Primitive p;
     p.topology = topology;
@@ -135,9 +137,11 @@ TEST(FramePlan, PointsAndLinesWithoutNormalsAreUnlit) {
     Add(scene, p, material);
   }
   const FramePlan plan = PlanOf(scene, StudioSettings());
-  const bool unlit[6] = {true, false, true, false, false, false};
+  const bool lit[6] = {false, true, false, true, true, true};
   for (std::size_t i = 0; i < 6; ++i) {
-    EXPECT_EQ(plan.materials[std::size_t(plan.material_of_drawable[i])].unlit, unlit[i]) << i;
+    const FrameMaterial& planned = plan.materials[std::size_t(plan.material_of_drawable[i])].frame;
+    EXPECT_EQ(planned.Has(kLit), lit[i]) << i;
+    EXPECT_TRUE(planned.Has(kEmission)) << i;
   }
   // What is used alike is planned once.
   EXPECT_EQ(plan.material_of_drawable[0], plan.material_of_drawable[2]);

@@ -147,6 +147,24 @@ TEST(Reference, LayersLieOverEachOtherByDepth) {
   }
 }
 
+TEST(Reference, LinesWithoutNormalsEmit) {
+  Scene scene;
+  Material material;
+  material.base_color_factor = {0.25f, 0.5f, 0, 1};
+  material.emissive_factor = {0, 0.25f, 1};
+  Primitive line;
+  line.topology = Topology::Lines;
+  line.positions = {{-0.9f, 0, 0}, {0.9f, 0, 0}};
+  Add(scene, line, AddMaterial(scene, material));
+  const ReferenceFilm film = RenderReference(scene, Settings(4, 4, 1, Orthographic(1.0)), Effort(4, 1, 2));
+  double covered = 0.0;
+  for (const glm::dvec4& pixel : film.pixels) {
+    covered += pixel.a;
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(pixel[c], glm::dvec3(0.25, 0.75, 1.0)[c] * pixel.a, 1e-7);
+  }
+  EXPECT_GT(covered, 1.0);
+}
+
 TEST(Reference, TheEnvironmentBehindThePicture) {
   RenderSettings settings = Settings(4, 2, 1, Perspective(1.0, {0, 0, 0}));
   settings.environment = ConstantEnvironment(0.5f);

@@ -56,6 +56,88 @@ TEST(Picture, OpaqueMaterialsIgnoreAlpha) {
   ExpectSquare(Render(scene, Settings(16, 16, 1, Orthographic(1.0))), {0.5f, 0.25f, 1.0f, 1.0f}, 4, 12, "opaque");
 }
 
+// glTF 2.0, section 3.9.6: without normals points and lines show base colour plus emission, each with its texture and
+// whatever the light; KHR_materials_unlit knows no emission.
+TEST(Picture, PointsAndLinesWithoutNormalsEmit) {
+  for (const Topology topology : {Topology::Points, Topology::Lines, Topology::LineStrip, Topology::LineLoop}) {
+    for (const bool unlit : {false, true}) {
+      for (const bool textured : {false, true}) {
+        Scene scene;
+        Material material;
+        material.unlit = unlit;
+        material.base_color_factor = {0.25f, 0.5f, 0, 1};
+        material.emissive_factor = {0, 0.25f, 0.5f};
+        material.emissive_strength = 2.0f;
+        if (textured) {
+          material.emissive_texture =
+              Ref(AddTexture(scene, Picture(1, 1, [](int, int) { return glm::u8vec4(255, 0, 255, 255); })));
+        }
+        Primitive p;
+        p.topology = topology;
+        p.positions = {{-0.9f, 0.05f, 0}, {0.9f, 0.05f, 0}};
+        p.tex_coords = {{{0, 0}, {1, 1}}};
+        Add(scene, p, AddMaterial(scene, material));
+        RenderSettings settings = Settings(16, 16, 1, Orthographic(1.0));
+        settings.environment = ConstantEnvironment(3.0f);
+        const glm::vec4 emission = unlit ? glm::vec4(0) : textured ? glm::vec4(0, 0, 1, 0) : glm::vec4(0, 0.5f, 1, 0);
+        const glm::vec4 expected = material.base_color_factor + emission;
+        int covered = 0;
+        for (const glm::vec4& pixel : Render(scene, settings).pixels) {
+          if (pixel.a == 0.0f) continue;
+          ++covered;
+          EXPECT_EQ(pixel, expected) << int(topology) << unlit << textured;
+        }
+        EXPECT_GT(covered, 1);
+        settings.without = {Feature::Emission};
+        for (const glm::vec4& pixel : Render(scene, settings).pixels) {
+          EXPECT_TRUE(pixel.a == 0.0f || pixel == material.base_color_factor);
+        }
+      }
+    }
+  }
+}
+
+// A normal map that KHR_texture_transform turns and mirrors is lit as one whose UVs are written out that way.
+TEST(Picture, NormalMapsFollowTheTextureTransform) {
+  const Image bumps = Picture(16, 16, [](int x, int y) {
+    return glm::u8vec4(128 + 60 * ((x / 2) % 3 - 1), 128 + 50 * ((y / 3) % 3 - 1), 220, 255);
+  });
+  Transform tilted;
+  tilted.rotation = glm::dquat(0.8880738, -0.3250576, 0.3250576, 0.0);
+  for (const glm::vec2 scale : {glm::vec2(1, 1), glm::vec2(-1, 1), glm::vec2(2, -1)}) {
+    for (const float rotation : {0.0f, 1.5707963f, 3.1415927f, 0.5f}) {
+      const TextureRef transform{0, 0, {0.5f, 1}, scale, rotation};
+      const auto lit = [&](const TextureRef& ref, const Primitive& surface) {
+        Scene scene;
+        AddTexture(scene, bumps);
+        Material material;
+        material.metallic_factor = 0.0f;
+        material.normal_texture = ref;
+        Add(scene, surface, AddMaterial(scene, material));
+        scene.lights.push_back({"", LightType::Directional, glm::vec3(1), 3.0f});
+        scene.nodes.emplace_back().light = 0;
+        scene.nodes.back().transform = tilted;
+        return Render(scene, Settings(32, 32, 1, Orthographic(1.0)));
+      };
+      Primitive surface = Rectangle(-0.9f, -0.9f, 0.9f, 0.9f), baked = surface;
+      const double c = std::cos(double(rotation)), s = std::sin(double(rotation));
+      for (glm::vec2& uv : baked.tex_coords[0]) {
+        const glm::dvec2 scaled = glm::dvec2(scale) * glm::dvec2(uv);
+        uv = glm::vec2(glm::dvec2(transform.offset) +
+                       glm::dvec2(c * scaled.x + s * scaled.y, c * scaled.y - s * scaled.x));
+      }
+      const Film film = lit(transform, surface), expected = lit(Ref(0), baked);
+      float largest = 0.0f, contrast = 0.0f;
+      for (std::size_t i = 0; i < film.pixels.size(); ++i) {
+        largest = std::max(largest, std::fabs(film.pixels[i].r - expected.pixels[i].r));
+        contrast = std::max(contrast, std::fabs(expected.pixels[i].r - expected.pixels[528].r));
+      }
+      EXPECT_LT(largest, 1e-4f) << scale.x << " " << scale.y << " " << rotation;
+      EXPECT_GT(contrast, 0.1f) << "the bumps show";
+    }
+  }
+}
+
 TEST(Picture, VertexColorsMultiply) {
   Scene scene;
   Primitive p = Rectangle(-0.5f, -0.5f, 0.5f, 0.5f);

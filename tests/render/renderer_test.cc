@@ -183,7 +183,7 @@ TEST(Renderer, CompletesGeometryThatIsSeen) {
   };
   Scene complete = scene;
   for (std::size_t m = 0; m < 2; ++m) {
-    complete.meshes[m].primitives[0] = Completed(scene.meshes[m].primitives[0], 0);
+    complete.meshes[m].primitives[0] = Completed(scene.meshes[m].primitives[0], TextureRef());
     EXPECT_FALSE(complete.meshes[m].primitives[0].tangents.empty());
   }
   Renderer renderer(scene);

@@ -41,6 +41,45 @@ TEST(Animation, StepHoldsUntilTheNextKey) {
   EXPECT_EQ(SampleVector(channel, 2.0), glm::dvec3(3));
 }
 
+// Two keys at one time make a jump: what comes before goes to the first, what comes after from the second on.
+TEST(Animation, KeysAtOneTimeJump) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();  // tangents beside a jump are never read
+  const std::vector<float> times = {0, 0, 1, 1, 1, 2, 2};
+  const std::vector<float> x = {-1, 0, 10, 50, 20, 30, 40};
+  std::vector<float> values, cubic;
+  for (const float v : x) {
+    values.insert(values.end(), {v, 0, 0});
+    cubic.insert(cubic.end(), {10, 0, 0, v, 0, 0, 10, 0, 0});
+  }
+  cubic[3 * 9 + 0] = cubic[3 * 9 + 6] = nan;  // of the one in the middle, which no moment shows
+  const auto at = [&](Interpolation interpolation, double time) {
+    const bool is_cubic = interpolation == Interpolation::CubicSpline;
+    return SampleVector(Channel(AnimationPath::Translation, interpolation, times, is_cubic ? cubic : values), time).x;
+  };
+  for (const Interpolation any : {Interpolation::Linear, Interpolation::Step, Interpolation::CubicSpline}) {
+    EXPECT_EQ(at(any, -1.0), -1.0);
+    EXPECT_EQ(at(any, 0.0), 0.0);
+    EXPECT_EQ(at(any, 1.0), 20.0);
+    EXPECT_EQ(at(any, 2.0), 40.0);
+    EXPECT_EQ(at(any, 9.0), 40.0);
+  }
+  for (const Interpolation smooth : {Interpolation::Linear, Interpolation::CubicSpline}) {
+    EXPECT_NEAR(at(smooth, 0.5), 5.0, 1e-12);
+    EXPECT_NEAR(at(smooth, 1.5), 25.0, 1e-12);
+    EXPECT_NEAR(at(smooth, std::nextafter(1.0, 0.0)), 10.0, 1e-12);
+    EXPECT_NEAR(at(smooth, std::nextafter(1.0, 2.0)), 20.0, 1e-12);
+  }
+  EXPECT_EQ(at(Interpolation::Step, 0.5), 0.0);
+  EXPECT_EQ(at(Interpolation::Step, 1.5), 20.0);
+  AnimationChannel turns = Channel(AnimationPath::Rotation, Interpolation::Linear, {0, 1, 1, 2},
+                                   {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0, 1, 0});
+  EXPECT_EQ(SampleRotation(turns, 0.5), glm::dquat(1, 0, 0, 0));
+  EXPECT_EQ(SampleRotation(turns, 1.5), glm::dquat(0, 0, 0, 1));
+  const AnimationChannel weights = Channel(AnimationPath::Weights, Interpolation::Linear, {0, 1, 1}, {0, 1, 5});
+  EXPECT_EQ(SampleWeights(weights, 0.5), std::vector<float>{0.5f});
+  EXPECT_EQ(SampleWeights(weights, 1.0), std::vector<float>{5.0f});
+}
+
 // A cubic spline reproduces every cubic polynomial from its values and derivatives.
 TEST(Animation, CubicSplineReproducesCubics) {
   const auto value = [](double t) { return 2.0 * t * t * t - 3.0 * t * t + 0.5 * t - 1.0; };

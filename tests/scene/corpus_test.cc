@@ -224,7 +224,7 @@ Difference CompareWithFile(const std::string& model) {
       if (primitive.tangents.empty() || primitive.topology != Topology::Triangles) continue;
       Primitive made = primitive;
       made.tangents.clear();
-      MakeTangents(0, made);
+      MakeTangents(TextureRef(), made);
       for (std::size_t c = 0; c < made.indices.size(); ++c) {
         const glm::dvec4 a(made.tangents[made.indices[c]]);
         const glm::dvec4 b(primitive.tangents[primitive.indices.empty() ? c : primitive.indices[c]]);

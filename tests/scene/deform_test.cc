@@ -151,11 +151,22 @@ TEST(Skin, SeveralSetsOfInfluencesAddUp) {
   }
 }
 
-TEST(Skin, WithoutWeightsTheNodePlacesTheVertex) {
-  Scene scene = BentBar(0.7);
-  scene.meshes[0].primitives[0].weights[0][5] = glm::vec4(0);
-  const PosedScene posed = Pose(scene, {});
-  EXPECT_LT(Distance(WorldPosition(posed.drawables[0], 5), {101, 202, 300}), 1e-5);
+TEST(Skin, WithoutWeightsTheFirstJointPlacesTheVertex) {
+  Scene scene = BentBar(0.7), expected = scene;
+  Primitive& bar = scene.meshes[0].primitives[0];
+  for (const std::size_t i : {2u, 5u}) {
+    bar.weights[0][i] = glm::vec4(0);
+    bar.joints[0][i] = glm::u16vec4(i == 2 ? 0 : 1, 0, 1, 1);
+    expected.meshes[0].primitives[0].joints[0][i] = bar.joints[0][i];
+    expected.meshes[0].primitives[0].weights[0][i] = glm::vec4(1, 0, 0, 0);
+  }
+  const PosedScene posed = Pose(scene, {}), right = Pose(expected, {});
+  for (std::size_t i = 0; i < bar.positions.size(); ++i) {
+    EXPECT_EQ(WorldPosition(posed.drawables[0], i), WorldPosition(right.drawables[0], i)) << i;
+  }
+  // A joint that there is not can place nothing: the node does.
+  bar.joints[0][5].x = 9;
+  EXPECT_LT(Distance(WorldPosition(Pose(scene, {}).drawables[0], 5), {101, 202, 300}), 1e-5);
 }
 
 TEST(Skin, RefusesJointsThatDoNotExist) {

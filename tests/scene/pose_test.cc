@@ -61,8 +61,32 @@ TEST(Pose, VisibilityIsInherited) {
   const PosedScene hidden = Pose(scene, {});
   EXPECT_TRUE(hidden.drawables.empty());
   EXPECT_TRUE(hidden.lights.empty());
-  EXPECT_TRUE(hidden.cameras.empty());
   EXPECT_TRUE(hidden.bounds.empty);
+  ASSERT_EQ(hidden.cameras.size(), 1u) << "KHR_node_visibility does not affect cameras";
+  EXPECT_EQ(hidden.cameras[0].camera, 0);
+}
+
+TEST(Pose, ASceneThatBeginsAtAChildLeavesItsParentsOut) {
+  Scene scene = SceneOf(Triangle());
+  scene.cameras.resize(1);
+  scene.nodes.resize(4);
+  scene.nodes[0].transform.translation = {1, 0, 0};  // with the mesh
+  scene.nodes[1].transform.translation = {10, 0, 0};
+  scene.nodes[2].transform.translation = {100, 0, 0};
+  scene.nodes[3].camera = 0;
+  scene.nodes[2].children = {1};
+  scene.nodes[1].children = {0, 3};
+  const auto x_of = [&](const PoseSettings& settings) {
+    return Pose(scene, settings).drawables.at(0).world_from_mesh[3].x;
+  };
+  scene.scenes = {{"whole", {2}}, {"child", {1}}, {"grandchild", {0}}, {"both", {0, 2}}};
+  EXPECT_EQ(x_of({}), 111.0);
+  EXPECT_EQ(x_of({.scene = 1}), 11.0);
+  EXPECT_EQ(Pose(scene, {.scene = 1}).cameras.at(0).world_from_camera[3].x, 10.0);
+  EXPECT_EQ(x_of({.scene = 2}), 1.0);
+  EXPECT_EQ(x_of({.scene = 3}), 111.0) << "its parents are in the scene";
+  scene.nodes[2].visible = false;
+  EXPECT_EQ(x_of({.scene = 1}), 11.0) << "what is not in the scene hides nothing";
 }
 
 TEST(Pose, ChoosesTheScene) {
@@ -158,7 +182,7 @@ TEST(Pose, LeavesCompletionToOthers) {
   ASSERT_EQ(posed.drawables.size(), 8u);
   ASSERT_EQ(posed.incomplete.size(), 1u) << "not what is deformed, or has no normals or no normal map";
   EXPECT_EQ(posed.incomplete[0].drawables, (std::vector<std::size_t>{0, 4}));
-  EXPECT_EQ(posed.incomplete[0].tex_coord, 1);
+  EXPECT_EQ(posed.incomplete[0].normal_map.tex_coord, 1);
   EXPECT_EQ(posed.drawables[0].geometry, &scene.meshes[0].primitives[0]);
   EXPECT_EQ(posed.drawables[4].geometry, &scene.meshes[0].primitives[0]);
   EXPECT_EQ(posed.drawables[1].geometry->tangents, whole.drawables[1].geometry->tangents);
@@ -179,7 +203,7 @@ TEST(Pose, LeavesCompletionToOthers) {
   EXPECT_TRUE(whole.incomplete.empty());
   EXPECT_EQ(whole.drawables[0].geometry, whole.drawables[4].geometry) << "made once";
   const Primitive& expected = *whole.drawables[0].geometry;
-  const Primitive completed = Completed(strip, 1);
+  const Primitive completed = Completed(strip, scene.materials[0].normal_texture);
   EXPECT_EQ(completed.tangents, expected.tangents);
   EXPECT_EQ(completed.normals, expected.normals);
   EXPECT_EQ(completed.indices, expected.indices);

@@ -23,12 +23,65 @@ Primitive Square(const F& uv) {
   return square;
 }
 
+// Of a map that KHR_texture_transform turns, mirrors, moves or stretches: the tangents of the same surface whose UVs
+// are written out as the map reads them.
+TEST(Tangents, FollowTheTextureTransform) {
+  Primitive surface;
+  surface.topology = Topology::Triangles;
+  for (int i = 0; i < 16; ++i) {
+    const float u = float(i % 4) / 3.0f, v = float(i / 4) / 3.0f;
+    surface.positions.push_back({u + 0.1f * v, v, 0.3f * u * v});
+    surface.normals.push_back(glm::normalize(glm::vec3(-v, -u, 3)));
+    surface.tex_coords.resize(2);
+    surface.tex_coords[0].push_back({9, 9});
+    surface.tex_coords[1].push_back({u + 0.2f * v * v, v - 0.1f * u});
+  }
+  for (std::uint32_t y = 0; y < 3; ++y) {
+    for (std::uint32_t x = 0; x < 3; ++x) {
+      const std::uint32_t i = 4 * y + x;
+      surface.indices.insert(surface.indices.end(), {i, i + 1, i + 4, i + 1, i + 5, i + 4});
+    }
+  }
+  for (const glm::vec2 scale :
+       {glm::vec2(1, 1), glm::vec2(3, 0.5f), glm::vec2(-1, 1), glm::vec2(2, -2), glm::vec2(-1, -1)}) {
+    for (const float rotation : {0.0f, 0.4f, 1.5707963f, 3.1415927f, -2.0f}) {
+      const TextureRef map{0, 1, {0.25f, -3.0f}, scale, rotation};
+      Primitive transformed = surface, baked = surface;
+      const double c = std::cos(double(rotation)), s = std::sin(double(rotation));
+      for (glm::vec2& uv : baked.tex_coords[1]) {
+        const glm::dvec2 scaled = glm::dvec2(scale) * glm::dvec2(uv);
+        uv = glm::vec2(glm::dvec2(map.offset) + glm::dvec2(c * scaled.x + s * scaled.y, c * scaled.y - s * scaled.x));
+      }
+      MakeTangents(map, transformed);
+      MakeTangents(TextureRef{0, 1}, baked);
+      ASSERT_EQ(transformed.tangents.size(), baked.tangents.size());
+      for (std::size_t i = 0; i < baked.tangents.size(); ++i) {
+        EXPECT_EQ(transformed.tangents[i].w, baked.tangents[i].w);
+        EXPECT_LT(glm::length(glm::vec3(transformed.tangents[i]) - glm::vec3(baked.tangents[i])), 1e-5f) << rotation;
+      }
+      EXPECT_EQ(transformed.tex_coords[1], surface.tex_coords[1]) << "the texture reader transforms them";
+    }
+  }
+}
+
+// What neither turns nor mirrors keeps every bit.
+TEST(Tangents, AreNotTouchedByMovingAndStretching) {
+  Primitive plain;
+  plain.positions = {{0, 0, 0}, {1, 0.3f, 0}, {0.1f, 1, 0.7f}};
+  plain.normals.assign(3, glm::normalize(glm::vec3(0.1f, 0.2f, 1)));
+  plain.tex_coords = {{{0.1f, 0.2f}, {0.9f, 0.3f}, {0.4f, 0.7f}}};
+  Primitive moved = plain;
+  MakeTangents(TextureRef(), plain);
+  MakeTangents(TextureRef{0, 0, {5, 7}, {0.3f, 0.3f}, 0.0f}, moved);
+  EXPECT_EQ(moved.tangents, plain.tangents);
+}
+
 TEST(Tangents, FollowRotatedUvs) {
   for (const double angle : {0.0, 0.3, 1.0, 2.0, 3.0, -1.2}) {
     const float c = float(std::cos(angle)), s = float(std::sin(angle));
     // u along (c, s), v down the perpendicular: an image laid upright on the turned square.
     Primitive square = Square([&](const glm::vec3& p) { return glm::vec2(c * p.x + s * p.y, s * p.x - c * p.y); });
-    MakeTangents(0, square);
+    MakeTangents(TextureRef(), square);
     ASSERT_EQ(square.tangents.size(), 4u);
     for (const glm::vec4& tangent : square.tangents) {
       EXPECT_LT(Distance(glm::dvec3(tangent), {c, s, 0}), 1e-6);
@@ -39,7 +92,7 @@ TEST(Tangents, FollowRotatedUvs) {
 
 TEST(Tangents, MirroredUvsTurnTheSign) {
   Primitive square = Square([](const glm::vec3& p) { return glm::vec2(-p.x, -p.y); });
-  MakeTangents(0, square);
+  MakeTangents(TextureRef(), square);
   for (const glm::vec4& tangent : square.tangents) EXPECT_EQ(tangent, glm::vec4(-1, 0, 0, -1));
 }
 
@@ -52,7 +105,7 @@ TEST(Tangents, MirrorSeamsSplitVertices) {
   seam.colors = {{0, 0, 0, 1}, {0.1f, 0, 0, 1}, {0.2f, 0, 0, 1}, {0.3f, 0, 0, 1}, {0.4f, 0, 0, 1}, {0.5f, 0, 0, 1}};
   seam.indices = {0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4};
   const Primitive before = seam;
-  MakeTangents(0, seam);
+  MakeTangents(TextureRef(), seam);
   ASSERT_EQ(seam.positions.size(), 8u);
   ASSERT_EQ(seam.tangents.size(), 8u);
   ASSERT_EQ(seam.indices.size(), 12u);
@@ -77,8 +130,8 @@ TEST(Tangents, RepeatedVerticesAreWelded) {
     repeated.tex_coords[0].push_back(shared.tex_coords[0][shared.indices[c]]);
   }
   const std::vector<std::uint32_t> indices = shared.indices;
-  MakeTangents(0, shared);
-  MakeTangents(0, repeated);
+  MakeTangents(TextureRef(), shared);
+  MakeTangents(TextureRef(), repeated);
   ASSERT_EQ(repeated.tangents.size(), 6u);
   for (std::size_t c = 0; c < 6; ++c) EXPECT_EQ(repeated.tangents[repeated.indices[c]], shared.tangents[indices[c]]);
 }
@@ -90,7 +143,7 @@ TEST(Tangents, AreWeightedByAngle) {
   fan.normals.assign(4, {0, 0, 1});
   fan.indices = {0, 1, 2, 0, 2, 3};
   fan.tex_coords = {{{0, 0}, {1, 0}, {0, -1}, {-0.5f, -1.5f}}};
-  MakeTangents(0, fan);
+  MakeTangents(TextureRef(), fan);
   // First triangle: dP/du = +x. Second: its edges (0, 1) and (-1, 1) are (0, -1) and (-0.5, -1.5) in UV space: dP/du =
   // (2, 1), dP/dv = (0, -1).
   const glm::dvec3 expected = glm::normalize(kTestPi / 2 * glm::dvec3(1, 0, 0) +
@@ -120,7 +173,7 @@ TEST(Tangents, OnASphereRunAlongTheParallels) {
       sphere.indices.insert(sphere.indices.end(), {a, b, b + 1, a, b + 1, a + 1});
     }
   }
-  MakeTangents(0, sphere);
+  MakeTangents(TextureRef(), sphere);
   for (std::size_t i = 0; i < sphere.positions.size(); ++i) {
     const glm::dvec3 p(sphere.positions[i]), t(sphere.tangents[i]);
     EXPECT_NEAR(glm::length(t), 1.0, 1e-6);
@@ -134,7 +187,7 @@ TEST(Tangents, OnASphereRunAlongTheParallels) {
 TEST(Tangents, TrianglesWithoutUvAreaFollowTheirNeighbours) {
   Primitive square = Square([](const glm::vec3& p) { return glm::vec2(p.x, 1 - p.y); });
   square.tex_coords[0][3] = square.tex_coords[0][0];  // the second triangle collapses
-  MakeTangents(0, square);
+  MakeTangents(TextureRef(), square);
   for (std::size_t c = 0; c < 6; ++c) {
     const glm::vec4 tangent = square.tangents[square.indices[c]];
     if (c != 5) {
@@ -147,7 +200,7 @@ TEST(Tangents, TrianglesWithoutUvAreaFollowTheirNeighbours) {
 TEST(Tangents, DegenerateTrianglesTakeTheirVertexsTangent) {
   Primitive square = Square([](const glm::vec3& p) { return glm::vec2(p.x, 1 - p.y); });
   square.indices.insert(square.indices.begin(), {1, 1, 2});
-  MakeTangents(0, square);
+  MakeTangents(TextureRef(), square);
   ASSERT_EQ(square.positions.size(), 4u) << "nothing to split";
   for (const glm::vec4& tangent : square.tangents) EXPECT_EQ(tangent, glm::vec4(1, 0, 0, 1));
 }
@@ -162,7 +215,7 @@ TEST(Tangents, WithoutUvsArePerpendicularToTheNormal) {
   }
   primitive.normals[0] = {0, 0, -1};
   primitive.normals[1] = {0, 0, 1};
-  MakeTangents(0, primitive);
+  MakeTangents(TextureRef(), primitive);
   for (std::size_t i = 0; i < 300; ++i) {
     const glm::dvec3 t(primitive.tangents[i]);
     EXPECT_NEAR(glm::length(t), 1.0, 1e-6);
@@ -190,7 +243,7 @@ TEST(Tangents, AVertexOfManyTriangles) {
     star.indices.insert(star.indices.end(), {0, 2 * t + 1, 2 * t + 2});
   }
   const Primitive before = star;
-  MakeTangents(0, star);
+  MakeTangents(TextureRef(), star);
   ASSERT_EQ(star.indices.size(), before.indices.size());
   EXPECT_GT(star.positions.size(), before.positions.size() + kTriangles / 4) << "the middle is split";
   // No two copies of the middle are alike, and each triangle's three corners have the one tangent that it asks for.
@@ -225,7 +278,7 @@ TEST(Tangents, CornersThatAgreeShareACopy) {
     fans.indices.insert(fans.indices.end(), {0, 2 * t + 1, 2 * t + 2});
   }
   fans.normals.assign(9, {0, 0, 1});
-  MakeTangents(0, fans);
+  MakeTangents(TextureRef(), fans);
   ASSERT_EQ(fans.positions.size(), 10u);
   const std::uint32_t expected[4] = {0, 9, 0, 9};
   for (std::size_t t = 0; t < 4; ++t) EXPECT_EQ(fans.indices[3 * t], expected[t]) << t;
@@ -248,7 +301,7 @@ TEST(Tangents, AreUnitAndFiniteWhateverTheInput) {
     if (trial % 4 == 0) soup.positions[0].x = std::numeric_limits<float>::quiet_NaN();
     if (trial % 4 == 1) soup.tex_coords[0][0].x = std::numeric_limits<float>::infinity();
     for (int i = 0; i < 60; ++i) soup.indices.push_back(std::uint32_t(random() % count));
-    MakeTangents(0, soup);
+    MakeTangents(TextureRef(), soup);
     ASSERT_EQ(soup.tangents.size(), soup.positions.size());
     for (const glm::vec4& tangent : soup.tangents) {
       ASSERT_NEAR(glm::length(glm::dvec3(tangent)), 1.0, 1e-6);

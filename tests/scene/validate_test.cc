@@ -84,7 +84,7 @@ INSTANTIATE_TEST_SUITE_P(
                 s.nodes[3].children = {4};
                 s.nodes[4].children = {3};
               }},
-        Break{"times", "channel 0", [](Scene& s) { s.animations[0].channels[0].times = {1.0f, 1.0f}; }},
+        Break{"times", "channel 0", [](Scene& s) { s.animations[0].channels[0].times = {1.0f, 0.5f}; }},
         Break{"values", "values has 7", [](Scene& s) { s.animations[0].channels[0].values.pop_back(); }},
         Break{"cubic", "values has 8",
               [](Scene& s) { s.animations[0].channels[0].interpolation = Interpolation::CubicSpline; }},

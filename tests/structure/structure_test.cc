@@ -147,7 +147,7 @@ TEST(Structure, ThirdPartiesStayInTheirRooms) {
     const std::string& file = include.file;
     const std::string& target = include.target;
     const std::string room = RoomOf(file);
-    if (StartsWithAny(target, {"tiny_gltf", "tinygltf", "draco/", "meshoptimizer"})) {
+    if (StartsWithAny(target, {"draco/", "meshoptimizer"})) {
       EXPECT_EQ(room, "gltf") << At(include);
     }
     if (StartsWithAny(target, {"OpenImageIO/"})) {

@@ -1,0 +1,31 @@
+// What a loader has to say about a file that it reads nevertheless.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace facet::gltf {
+
+class Warnings {
+ public:
+  // `place` is "accessors[3].count", or empty. The same mistake in several places is one line, which names the first
+  // and counts the others: what an exporter does wrong, it does wrong everywhere.
+  void Add(const std::string& place, const std::string& what);
+
+  // In the order in which they came.
+  std::vector<std::string> Lines() const;
+
+ private:
+  struct Mistake {
+    std::string line;
+    std::size_t more = 0;
+  };
+  std::vector<Mistake> mistakes_;
+  std::map<std::string, std::size_t> mistake_of_kind_;
+  std::set<std::string> said_;
+};
+
+}  // namespace facet::gltf
