@@ -3,7 +3,7 @@
 # sudo works). Does nothing when everything is there.
 #   scripts/install-dependencies.sh [--minimal]
 # --minimal: what the program needs to be built with GCC; without the second compiler, the tests' and benchmarks'
-# libraries and the comparison script's Python modules.
+# libraries, the comparison script's Python modules and the emulator.
 set -euo pipefail
 
 packages=(cmake ninja-build g++ pkg-config
@@ -11,7 +11,8 @@ packages=(cmake ninja-build g++ pkg-config
   nlohmann-json3-dev libdraco-dev libmeshoptimizer-dev
   libpng-dev libdeflate-dev libjpeg-dev libopenimageio-dev libimath-dev # pictures
   libcli11-dev)
-extras=(clang libclang-rt-dev libgtest-dev libbenchmark-dev python3 python3-numpy python3-pil)
+extras=(clang libclang-rt-dev libgtest-dev libbenchmark-dev python3 python3-numpy python3-pil
+  qemu-user) # the tests' processors of other makers
 
 case "${1:-}" in
   "") packages+=("${extras[@]}") ;;

@@ -5,12 +5,16 @@
 #pragma GCC diagnostic ignored "-Wconversion"
 #pragma GCC diagnostic ignored "-Wpedantic"
 #pragma GCC diagnostic ignored "-Wunused-parameter"
-#include <draco/compression/decode.h>
+#include <draco/compression/mesh/mesh_edgebreaker_decoder.h>
+#include <draco/compression/mesh/mesh_sequential_decoder.h>
 #pragma GCC diagnostic pop
 
 #include <cstring>
+#include <memory>
 #include <new>
 #include <optional>
+
+#include "gltf/draco_transforms.h"
 
 namespace facet::gltf {
 namespace {
@@ -62,6 +66,27 @@ void CheckClaims(const Bytes& packed, const Place& place) {
   }
 }
 
+// What draco::Decoder does, with the decoder at hand afterwards: it holds the integers that the floats were made from.
+draco::Status DecodeMesh(const Bytes& packed, draco::Mesh& mesh) {
+  draco::DecoderBuffer buffer;
+  buffer.Init(reinterpret_cast<const char*>(packed.data), packed.size);
+  draco::DecoderBuffer start = buffer;
+  draco::DracoHeader header;
+  if (const draco::Status status = draco::PointCloudDecoder::DecodeHeader(&start, &header); !status.ok()) return status;
+  std::unique_ptr<draco::MeshDecoder> decoder;
+  if (header.encoder_method == draco::MESH_EDGEBREAKER_ENCODING) {
+    decoder = std::make_unique<draco::MeshEdgebreakerDecoder>();
+  } else if (header.encoder_method == draco::MESH_SEQUENTIAL_ENCODING) {
+    decoder = std::make_unique<draco::MeshSequentialDecoder>();
+  } else {
+    return draco::Status(draco::Status::DRACO_ERROR, "Unsupported encoding method.");
+  }
+  const draco::DecoderOptions options;
+  const draco::Status status = decoder->Decode(options, &buffer, &mesh);
+  if (status.ok()) DequantizeDraco(*decoder, mesh);
+  return status;
+}
+
 AccessorView CopyAttribute(Context& context, const draco::Mesh& mesh, const draco::PointAttribute& attribute,
                            const Place& place) {
   const auto type = ComponentOf(attribute.data_type());
@@ -103,16 +128,10 @@ DracoMesh DecodeDraco(Context& context, BufferStore& buffers, AccessorReader& re
       buffers.Read(RequireIndex(extension, "bufferView", context.document.Count("bufferViews"), "bufferViews", place));
   CheckClaims(packed, place);
 
-  draco::DecoderBuffer buffer;
-  buffer.Init(reinterpret_cast<const char*>(packed.data), packed.size);
-  std::unique_ptr<draco::Mesh> mesh;
+  const auto mesh = std::make_unique<draco::Mesh>();
   try {
-    draco::Decoder decoder;
-    auto result = decoder.DecodeMeshFromBuffer(&buffer);
-    if (!result.ok()) {
-      Fail(place, "Draco data is damaged: " + result.status().error_msg_string(), "pack the file again");
-    }
-    mesh = std::move(result).value();
+    const draco::Status status = DecodeMesh(packed, *mesh);
+    if (!status.ok()) Fail(place, "Draco data is damaged: " + status.error_msg_string(), "pack the file again");
   } catch (const std::bad_alloc&) {
     Fail(place, "Draco data claims more than there is memory", "pack the file again", ErrorCode::OutOfMemory);
   } catch (const std::length_error&) {

@@ -2,6 +2,8 @@
 
 #include <meshoptimizer.h>
 
+#include "gltf/meshopt_filters.h"
+
 namespace facet::gltf {
 
 MeshoptView ReadMeshoptView(const Json& object, std::size_t buffer_count, const Place& place) {
@@ -81,11 +83,12 @@ Bytes DecodeMeshopt(const MeshoptView& view, const Bytes& packed, const Place& p
       break;
   }
   if (status != 0) Fail(place, "the compressed data is damaged", "pack the file again");
+  const std::span<std::byte> elements(bytes.data(), bytes.size);
   switch (view.filter) {
     case MeshoptFilter::None: break;
-    case MeshoptFilter::Octahedral: meshopt_decodeFilterOct(bytes.data(), view.count, view.stride); break;
-    case MeshoptFilter::Quaternion: meshopt_decodeFilterQuat(bytes.data(), view.count, view.stride); break;
-    case MeshoptFilter::Exponential: meshopt_decodeFilterExp(bytes.data(), view.count, view.stride); break;
+    case MeshoptFilter::Octahedral: (view.stride == 4 ? DecodeOctahedral8 : DecodeOctahedral16)(elements); break;
+    case MeshoptFilter::Quaternion: DecodeQuaternions(elements); break;
+    case MeshoptFilter::Exponential: DecodeExponential(elements); break;
   }
   return bytes.Freeze();
 }

@@ -3,7 +3,8 @@
 //   film_hashes [--hostile] [--size N] [--run TARGET:THREADS:TILE]... [--environment FILE] SCENE... [--environment ...]
 //   film_hashes --targets
 // --environment holds for the scenes after it and is shown behind them. --hostile: the floating-point state that a
-// careless host may leave behind: upward rounding, and subnormals flushed to zero.
+// careless host may leave behind: upward rounding, and subnormals flushed to zero. Without --run: what was decoded
+// alone.
 #include <cfenv>
 #include <cstdint>
 #include <cstdio>
@@ -67,22 +68,25 @@ void Print(const std::string& scene, const std::string& what, const std::string&
   std::fflush(stdout);
 }
 
-// Decoded once for all runs. False where a picture needs the OpenImageIO module and that is not there.
-bool DecodeImages(Scene& scene) {
+// Decoded once for all runs. What cannot be decoded stays white in the picture; says why.
+std::string DecodeImages(Scene& scene) {
+  std::string errors;
   for (SceneImage& image : scene.images) {
     try {
       image.source = MakeImageSource(image.source->Decode(), image.name);
     } catch (const Error& error) {
-      if (error.code() == ErrorCode::MissingModule) return false;
+      if (error.code() == ErrorCode::MissingModule) throw;
+      errors += (errors.empty() ? "" : "; ") + std::string(error.what());
     }
   }
-  return true;
+  return errors;
 }
 
-void HashOne(const std::string& path, const std::string& environment, int size, const std::vector<Run>& runs) {
-  const std::string name = environment.empty() ? path : path + " + " + environment;
+void HashOne(const std::string& name, const std::string& path, const std::string& environment, int size,
+             const std::vector<Run>& runs) {
   Scene scene = LoadGltf(path).scene;
-  if (!DecodeImages(scene)) return Print(name, "skipped", "needs OpenImageIO");
+  const std::string errors = DecodeImages(scene);
+  if (!errors.empty()) Print(name, "error", errors);
 
   RenderSettings settings;
   settings.width = settings.height = size;
@@ -105,8 +109,8 @@ void HashOne(const std::string& path, const std::string& environment, int size, 
     const ScopedTarget target(run.target);
     settings.threads = run.threads;
     settings.tile_size = run.tile_size;
-    const std::string what = std::string(TargetName(run.target)) + ":" + std::to_string(run.threads) + ":" +
-                             std::to_string(run.tile_size);
+    const std::string what =
+        std::string(TargetName(run.target)) + ":" + std::to_string(run.threads) + ":" + std::to_string(run.tile_size);
     Print(name, what, ToHex(HashFilm(Render(scene, settings))));
   }
 }
@@ -134,10 +138,12 @@ void Execute(const std::vector<std::string>& arguments) {
     } else if (argument == "--environment") {
       environment = value();
     } else {
+      const std::string name = environment.empty() ? argument : argument + " + " + environment;
       try {
-        HashOne(argument, environment, size, runs);
+        HashOne(name, argument, environment, size, runs);
       } catch (const Error& error) {
-        Print(argument, "error", error.what());
+        const bool skipped = error.code() == ErrorCode::MissingModule;
+        Print(name, skipped ? "skipped" : "error", error.what());
       }
     }
   }

@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 """One hash per scene, everywhere: renders scenes in every configuration and compares the films bit by bit.
 
-Builds what it needs in build/PRESET, renders the bundled scenes and the corpus (FACET_CORPUS, else ../shared/corpus,
-where it is there), and prints the SHA-256 of each scene's linear film. Exit code 0: each scene has one hash; 1: some
-scene has several, and the configurations that differ are named; 2: something could not be built or run.
+Builds what it needs in build/PRESET, renders the bundled scenes, small files for every decoder (made for the purpose in
+build/decoder-files) and the corpus (FACET_CORPUS, else ../shared/corpus, where it is there), and prints the SHA-256 of
+each scene's linear film. Exit code 0: each scene has one hash, and so has what was decoded for it; 1: some scene has
+several, and the configurations that differ are named; 2: something could not be built or run.
 
   prove.py                                everything
-  prove.py --quick                        bundled scenes, without the debug and scalar builds
+  prove.py --quick                        of the corpus only what is compressed; without the debug and scalar builds
   prove.py --configurations gcc,arm64 --scenes 'room|Duck'
 """
 
@@ -16,17 +17,28 @@ import concurrent.futures
 import os
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-QEMU = ["qemu-aarch64", "-L", str(ROOT / "build/arm64-sysroot")]
+QEMU_ARM64 = ["qemu-aarch64", "-L", str(ROOT / "build/arm64-sysroot")]
 
 # preset: the build. crossed: every instruction set with every number of threads and every tile size on the bundled
-# scenes, and each of the three apart on the others; else every instruction set with 2 threads and tiles of 32.
-Configuration = collections.namedtuple("Configuration", "name what preset crossed quick arguments environment bundled",
-                                       defaults=[False, True, [], {}, False])
+# scenes, and each of the three apart on the corpus; else every instruction set with 2 threads and tiles of 32.
+# processor: of what model qemu-user is to be one; it has the best instruction set alone. qemu computes estimates of
+# reciprocals exactly, which no maker's processor does, and libraries choose their code by the model.
+Configuration = collections.namedtuple(
+    "Configuration", "name what preset crossed quick arguments environment bundled processor",
+    defaults=[False, True, [], {}, False, None])
+
+
+def emulated(processor, what):
+    return Configuration(processor.lower(), f"GCC, release, on an emulated processor: {what}", "release",
+                         processor=processor)
+
+
 CONFIGURATIONS = [
     Configuration("gcc", "GCC, release", "release", crossed=True),
     Configuration("clang", "Clang, release", "release-clang"),
@@ -40,7 +52,14 @@ CONFIGURATIONS = [
     Configuration("arm64", "GCC, release, 64-bit Arm under qemu-user", "arm64"),
     Configuration("arm64-host", "the same; the host rounds upward and flushes subnormals to zero", "arm64",
                   arguments=["--hostile"], bundled=True),
+    emulated("max", "all that qemu-user has"),
+    emulated("Haswell", "Intel, 2013"),
+    emulated("EPYC", "AMD, 2017"),
+    emulated("Opteron_G5", "AMD, 2012"),
+    emulated("Westmere", "Intel, 2010"),
+    emulated("Conroe", "Intel, 2006"),
 ]
+DECODERS = "decoders"  # the group of the files that are made for them
 THREADS = [1, 2, 3, 8]
 TILES = [8, 16, 32, 64]
 INPUTS = ["description", "geometry", "textures", "environment"]
@@ -58,31 +77,52 @@ def run(command, **options):
     return done.stdout
 
 
-def find_scenes(corpus, quick):
+def find_scenes(decoder_files, corpus, quick):
     """[(group, arguments of film_hashes)]."""
     bundled = sorted(str(path.relative_to(ROOT)) for path in (ROOT / "assets/scenes").glob("*.glb"))
     scenes = [("bundled", [scene]) for scene in bundled]
     scenes += [("bundled", ["--environment", "assets/studio.hdr", scene]) for scene in bundled]
-    if quick or corpus is None:
+    for path in sorted(decoder_files.iterdir()):
+        is_scene = path.suffix == ".glb"
+        scenes.append((DECODERS, [str(path)] if is_scene else ["--environment", str(path), bundled[0]]))
+    if corpus is None:
         return scenes
-    for folder, group in [("models", "corpus"), ("asset-generator", "asset generator")]:
+    folders = [("models/*-Draco", "corpus"), ("models/*-Meshopt", "corpus")] if quick else [
+        ("models", "corpus"), ("asset-generator", "asset generator")]
+    for folder, group in folders:
         for pattern in ["**/*.glb", "**/*.gltf"]:
-            scenes += [(group, [str(path)]) for path in sorted((corpus / folder).glob(pattern))]
+            scenes += [(group, [str(path)]) for path in sorted(corpus.glob(f"{folder}/{pattern}"))]
+    if quick:
+        return scenes
     for path in sorted((corpus / "environments").glob("*.hdr")):
         scenes.append(("corpus", ["--environment", str(path), bundled[0]]))
     return scenes
 
 
-def build(preset, builds, jobs):
+def in_batches(scenes):
+    """The decoders' files of one kind together: most of a small file's time is the start of the program."""
+    batches = []
+    for group, arguments in scenes:
+        kind = group == DECODERS and pathlib.Path(arguments[-2 if len(arguments) > 1 else 0]).name.split("-")[0]
+        if kind and batches and batches[-1][0] == kind:
+            batches[-1][2].extend(arguments)
+        else:
+            batches.append((kind, group, list(arguments)))
+    return [(group, arguments) for _, group, arguments in batches]
+
+
+def build(preset, target, builds, jobs):
     folder = builds / preset
     if preset == "arm64":
         run(["scripts/install-arm64.sh"])
     run(["cmake", "--preset", preset, "-B", str(folder)])
-    run(["cmake", "--build", str(folder), "--target", "film_hashes", "--parallel", str(jobs)])
+    run(["cmake", "--build", str(folder), "--target", target, "--parallel", str(jobs)])
 
 
-def runs_for(targets, crossed, group):
-    if not crossed:
+def runs_for(targets, crossed, group, with_environment):
+    if group == DECODERS and with_environment:
+        return []
+    if not crossed or group == DECODERS:
         return [(target, 2, 32) for target in targets]
     if group == "bundled":
         return [(target, threads, tile) for target in targets for threads in THREADS for tile in TILES]
@@ -95,18 +135,24 @@ def measure(configuration, scenes, builds, size, jobs):
     """{(scene, what): {value: [configurations]}} of one configuration."""
     program = [str(builds / configuration.preset / "tests/film_hashes")]
     if configuration.preset == "arm64":
-        program = QEMU + program
+        program = QEMU_ARM64 + program
+    if configuration.processor:
+        program = ["qemu-x86_64", "-cpu", configuration.processor] + program
+        if not shutil.which(program[0]):
+            raise Failure(f"{program[0]} is not there: scripts/install-dependencies.sh installs it")
     targets = run(program + ["--targets"]).split()
+    if configuration.processor:
+        targets = targets[-1:]
     environment = dict(os.environ, **configuration.environment)
 
     def one(entry):
         group, arguments = entry
         command = program + configuration.arguments + ["--size", str(size)]
-        for target, threads, tile in runs_for(targets, configuration.crossed, group):
+        for target, threads, tile in runs_for(targets, configuration.crossed, group, "--environment" in arguments):
             command += ["--run", f"{target}:{threads}:{tile}"]
         return run(command + arguments, env=environment)
 
-    wanted = [entry for entry in scenes if entry[0] == "bundled" or not configuration.bundled]
+    wanted = in_batches([entry for entry in scenes if entry[0] == "bundled" or not configuration.bundled])
     results = []
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
         for (group, _), text in zip(wanted, pool.map(one, wanted)):
@@ -142,9 +188,14 @@ def main():
 
     corpus = pathlib.Path(os.environ.get("FACET_CORPUS", ROOT / "../shared/corpus")).resolve()
     if not corpus.is_dir():
-        print(f"the corpus is not at {corpus}: bundled scenes only", file=sys.stderr)
+        print(f"the corpus is not at {corpus}: left out", file=sys.stderr)
         corpus = None
-    scenes = [s for s in find_scenes(corpus, options.quick) if re.search(options.scenes, " ".join(s[1]))]
+    builds = options.builds.resolve()
+    decoder_files = builds / "decoder-files"
+    if not options.no_build:
+        build("release", "decoder_files", builds, options.jobs)
+    run([str(builds / "release/tests/decoder_files"), str(decoder_files)])
+    scenes = [s for s in find_scenes(decoder_files, corpus, options.quick) if re.search(options.scenes, " ".join(s[1]))]
     if not scenes:
         parser.error("no scene matches")
 
@@ -154,24 +205,32 @@ def main():
     for c in chosen:
         start = time.monotonic()
         if not options.no_build:
-            build(c.preset, options.builds.resolve(), options.jobs)
+            build(c.preset, "film_hashes", builds, options.jobs)
         built = time.monotonic()
-        used_targets[c.name], results = measure(c, scenes, options.builds.resolve(), options.size, options.jobs)
+        used_targets[c.name], results = measure(c, scenes, builds, options.size, options.jobs)
+        errors = {}
         for group, scene, what, value in results:
             scene = name_of(scene, corpus)
             groups[scene] = group
+            errors.setdefault(scene, "none")
             if what == "skipped":
                 skipped[c.name].add(scene)
-            elif what in INPUTS or what == "error":
+            elif what == "error":
+                errors[scene] = value
+            elif what in INPUTS:
                 seen[scene, what][value].append(c.name)
             else:
                 films[c.name] += 1
                 seen[scene, "film"][value].append(f"{c.name} {what}")
+        for scene in errors.keys() - skipped[c.name]:
+            seen[scene, "error"][errors[scene]].append(c.name)
         print(f"{c.name}: {films[c.name]} films in {time.monotonic() - built:.0f} s (built in {built - start:.0f} s)",
               file=sys.stderr)
 
     differing = []
     for (scene, what), values in seen.items():
+        if what == "error" and groups[scene] in ["bundled", DECODERS]:
+            differing += [f"FAILS: {scene} in {', '.join(values[value])}: {value}" for value in values if value != "none"]
         if len(values) == 1:
             continue
         usual = max(values, key=lambda value: len(values[value]))
@@ -189,8 +248,8 @@ def main():
         for scene, value in hashes.items():
             if groups[scene] == "bundled":
                 print(f"| {scene} | `{value}` |")
-        for group in ["corpus", "asset generator"]:
-            count = sum(groups[scene] == group for scene in hashes)
+        for group in [DECODERS, "corpus", "asset generator"]:
+            count = sum(groups[scene] == group for scene in groups)
             if count:
                 print(f"| {group} | {count} scenes, one hash each |")
     else:
@@ -198,10 +257,11 @@ def main():
             print(f"{value}  {scene}")
     out = sys.stderr if options.markdown else sys.stdout
     for name, missing in skipped.items():
-        print(f"{name} skipped, for want of OpenImageIO: {', '.join(sorted(missing))}", file=out)
+        if missing:
+            print(f"{name} skipped, for want of OpenImageIO: {', '.join(sorted(missing))}", file=out)
     for line in differing:
         print(line, file=out)
-    print(f"{len(hashes)} scenes, {sum(films.values())} films in {len(chosen)} configurations: "
+    print(f"{len(groups)} scenes, {sum(films.values())} films in {len(chosen)} configurations: "
           + (f"{len(differing)} lines of differences" if differing else "one hash per scene"), file=out)
     return 1 if differing else 0
 

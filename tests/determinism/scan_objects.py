@@ -40,9 +40,8 @@ def lines_of(command):
         raise RuntimeError(f"{command[0]} cannot read {command[-1]}")
 
 
-def findings_in(library, objdump, nm):
-    """(what, where, line) of everything in one library or object that should not be there, and how much was looked at."""
-    found, instructions = [], 0
+def instructions_of(library, objdump):
+    """(member, function, line, table) of each instruction; table has what is wrong on its architecture."""
     table, member, function = None, pathlib.Path(library).name, ""
     for line in lines_of([objdump, "--disassemble", "--demangle", "--no-show-raw-insn", "--no-addresses", library]):
         if ":     file format " in line:
@@ -53,11 +52,22 @@ def findings_in(library, objdump, nm):
         elif line.startswith("<"):
             function = line.strip().rstrip(":")
         elif line.startswith("\t"):
-            instructions += 1
-            mnemonic = line.split(None, 1)[0]
-            for what, pattern in table:
-                if pattern.fullmatch(mnemonic):
-                    found.append((what, f"{member} {function}", " ".join(line.split())))
+            yield member, function, " ".join(line.split()), table
+
+
+def inexact(line, table):
+    """What is wrong with an instruction."""
+    mnemonic = line.split(" ", 1)[0]
+    return [what for what, pattern in table if pattern.fullmatch(mnemonic)]
+
+
+def findings_in(library, objdump, nm):
+    """(what, where, line) of everything in one library or object that should not be there, and how much was looked at."""
+    found, instructions = [], 0
+    for member, function, line, table in instructions_of(library, objdump):
+        instructions += 1
+        found += [(what, f"{member} {function}", line) for what in inexact(line, table)]
+    member = pathlib.Path(library).name
     for line in lines_of([nm, "--undefined-only", library]):
         words = line.split()
         if line.endswith(":\n"):
@@ -94,10 +104,14 @@ SAMPLES_ARM64 = {
 }
 
 
-def self_test(compiler, flags, objdump, nm):
+def samples_for(compiler, flags):
     machine = subprocess.run([compiler, "-dumpmachine"], stdout=subprocess.PIPE, text=True, check=True).stdout
     arm = "aarch64" in machine or any("aarch64" in flag for flag in flags)
-    samples = dict(SAMPLES_ARM64 if arm else SAMPLES_X86)
+    return dict(SAMPLES_ARM64 if arm else SAMPLES_X86)
+
+
+def self_test(compiler, flags, objdump, nm):
+    samples = samples_for(compiler, flags)
     samples["C library function"] = "#include <cmath>\nfloat f(float a) { return std::sin(a); }"
     samples[None] = "#include <cmath>\nfloat f(float a, float b, float c) { return std::sqrt(a * b + c) / b; }"
     wrong = 0
