@@ -33,9 +33,10 @@ void ShowProgress(double share, const std::string& what) {
 }
 
 ErrorReport Measure(const std::filesystem::path& scene, const RenderRequest& request, const LoadOptions& load,
-                    double budget_seconds, bool quiet) {
+                    double budget_seconds, const Bound& bound, bool quiet) {
   ReportSettings settings;
   settings.budget_seconds = budget_seconds;
+  settings.bound = bound;
   settings.threads = request.settings.threads;
   const bool shown = !quiet && isatty(STDERR_FILENO) == 1;
   if (shown) settings.progress = ShowProgress;
@@ -82,7 +83,7 @@ void RunReport(const ReportOptions& options) {
     CheckWritable(output);
   }
   const ErrorReport report =
-      Measure(options.input, options.request, options.load, options.budget_seconds, options.quiet);
+      Measure(options.input, options.request, options.load, options.budget_seconds, {}, options.quiet);
   for (const std::filesystem::path& output : options.outputs) {
     const std::string text = WriterFor(output)(report);
     WriteFileWhole(output, std::as_bytes(std::span(text)));
@@ -104,10 +105,11 @@ Choice ChooseApproximations(RenderOptions& options) {
                             Printable(options.report->string()));
     RefuseOtherSettings(report, options);
   } else {
-    report =
-        Measure(options.input, options.request, options.load, options.budget_seconds.value_or(30.0), options.quiet);
+    report = Measure(options.input, options.request, options.load, options.budget_seconds.value_or(30.0), options.bound,
+                     options.quiet);
   }
   Choice choice = ChoosePoint(report, options.bound);
+  if (!choice.kept && !report.out_of_reach.empty()) choice.why += "; " + report.out_of_reach;
   if (!report.complete) {
     choice.why += "; the budget ended after " + std::to_string(report.points.size()) + " of at least " +
                   std::to_string(report.planned_points) + " points";
