@@ -27,15 +27,16 @@ struct ReportSettings {
   // settings asked for are measured whatever it says, and what has been begun when it ends is finished: one rendering,
   // or one of all points where the machine became slower meanwhile.
   double budget_seconds = 60.0;
-  // What a point is wanted for. Where no settings come near it the report ends as soon as that is known.
-  Bound bound;
   int threads = 0;  // 0: one per core
   // Called now and then from the calling thread with the share of the budget that is used and what is being done. May
   // be empty.
   std::function<void(double, const std::string&)> progress;
+  // What a point is wanted for. Where no settings come near it the report ends as soon as that is known.
+  Bound bound;
 };
 
-// How far a picture is from the reference. Over all pixels and R, G, B, in linear light that is premultiplied by alpha.
+// How far a picture is from the reference. Over all pixels that the reference has and R, G, B, in linear light that is
+// premultiplied by alpha.
 struct FilmError {
   double rmse = 0.0;            // root of the mean squared difference
   double relative_rmse = 0.0;   // that, divided by the root mean square of the reference
@@ -48,8 +49,8 @@ struct FilmError {
 struct ReportPoint {
   SettingsText changed;  // what differs from the settings that were asked for; empty: those themselves
   int runs = 0;
-  double seconds =
-      0.0;  // of Render(), median of the runs, which go round all points in turn; less what slowed whole rounds
+  // Of Render(): the median of the runs, which go round all points in turn, less what slowed whole rounds.
+  double seconds = 0.0;
   double seconds_low = 0.0;    // the fastest run
   double seconds_high = 0.0;   // the slowest
   std::size_t peak_bytes = 0;  // what the process grew by at most while rendering; 0 where it is not known

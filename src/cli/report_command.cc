@@ -12,6 +12,7 @@
 #include "facet/error.h"
 #include "facet/report.h"
 #include "image/codec.h"
+#include "report/short_number.h"
 
 namespace facet::cli {
 namespace {
@@ -90,6 +91,11 @@ void RunReport(const ReportOptions& options) {
   }
   for (const std::string& warning : report.warnings) {
     if (!options.quiet) PrintWarning(warning);
+  }
+  const std::size_t pixels = std::size_t(report.width) * std::size_t(report.height);
+  if (report.reference.pixels < pixels && !options.quiet) {
+    PrintNote("errors are over " + ShortNumber(100.0 * double(report.reference.pixels) / double(pixels), 2) +
+              " % of the picture's pixels, in blocks spread over it, for which there was time");
   }
   if (!report.complete && !options.quiet) {
     PrintWarning("the budget ended after " + std::to_string(report.points.size()) + " of at least " +

@@ -31,7 +31,8 @@ constexpr double kReferenceShare = 0.5;        // of the budget
 constexpr double kFirstLookShare = 0.05;       // of the budget, for a reference that only tells whether a bound is far
 constexpr double kMostBudget = 86400.0;        // seconds
 constexpr int kFewestRuns = 3, kMostRuns = 7;  // of a point: about a second of them, if there is time
-constexpr int kSparedRuns = 2;                 // for which time is left when points are added
+constexpr double kSparedRuns = 2.5;            // for which time is left when points are added: two, and what they may
+                                               // take longer than expected
 // Rendering in double takes 1 to 4 times as long as on lanes (the bundled scenes and DamagedHelmet).
 constexpr double kDoubleToLanes = 5.0;
 // By what factor the ends of all approximations together must miss a bound for it to be out of reach. Their errors are
@@ -102,11 +103,13 @@ class Sweep {
   }
 
   // Whether there is time for so many more points, and then for timing all of them.
-  bool Affords(std::size_t more) const {
-    const double a_visit = visits_seconds_ / double(out_.points.size());
-    const double a_run = round_seconds_ / double(out_.points.size());
-    return Elapsed() + double(more) * a_visit + kSparedRuns * (round_seconds_ + double(more) * a_run) <=
-           report_.budget_seconds;
+  bool Affords(std::size_t more) {
+    if (late_) return false;
+    const double count = double(out_.points.size()), grown = (count + double(more)) / count;
+    const double needed = double(more) * visits_seconds_ / count + kSparedRuns * round_seconds_ * grown;
+    const bool fits = Elapsed() + needed <= report_.budget_seconds;
+    late_ = !fits && more == 1;
+    return fits;
   }
 
   void BeginReference() {
@@ -157,7 +160,8 @@ class Sweep {
     const FilmError error = ErrorOf(most_exact, *reference_film_);
     const double least = std::max(error.relative_rmse - 2.0 * error.standard_error, 0.0);
     const double noise = reference_film_->relative_error, far = kFar * bound;
-    if (least * least - noise * noise > far * far) {
+    // Most of the error must be that of the settings: how much the noise adds is not known well.
+    if (least * least - 2.0 * noise * noise > far * far) {
       out_.out_of_reach = "not even the most exact settings come near it";
     } else if (reference_began_ + reference_->SecondsFor(far) > kReferenceShare * report_.budget_seconds) {
       const double budget = (reference_began_ + reference_->SecondsFor(0.5 * bound)) / kReferenceShare;
@@ -309,13 +313,16 @@ class Sweep {
     while (int(rounds.size()) < wanted) {
       if (!rounds.empty() && Elapsed() + round_seconds_ > report_.budget_seconds) break;
       Say("times, round " + std::to_string(rounds.size() + 1) + " of " + std::to_string(wanted));
-      const double before = Elapsed();
       std::vector<double>& round = rounds.emplace_back(count);
+      const double begun = clock_();
+      double last = begun;
       for (std::size_t i = 0; i < count; ++i) {
         const std::size_t point = rounds.size() % 2 == 1 ? i : count - 1 - i;
-        round[point] = SecondsOf([&] { Render(scene_, settings[point]); });
+        Render(scene_, settings[point]);
+        const double now = clock_();
+        round[point] = now - std::exchange(last, now);
       }
-      round_seconds_ = Elapsed() - before;
+      round_seconds_ = last - begun;
     }
     const std::vector<PointTime> times = TimesOf(rounds);
     for (std::size_t i = 0; i < count; ++i) {
@@ -371,6 +378,7 @@ class Sweep {
   std::set<SettingsText> measured_;
   double visits_seconds_ = 0.0;  // of the points so far, with all that is made of them
   double round_seconds_ = 0.0;   // of a run of each point
+  bool late_ = false;            // there is no time for another point
   std::size_t unmeasured_ = 0;   // points that were planned when the budget ended
   ErrorReport out_;
 };
