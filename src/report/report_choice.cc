@@ -80,6 +80,10 @@ Choice ChoosePoint(const ErrorReport& report, const Bound& bound) {
     const std::string count = std::to_string(report.points.size());
     why = (count == "1" ? "the only point does not keep " : "none of " + count + " points keeps ") + bounds +
           "; takes the nearest, " + SettingsWords(best->changed) + ": " + values;
+    const double noise = report.reference.relative_error;
+    if (report.out_of_reach.empty() && max_error <= noise && best->error.relative_rmse < 2.0 * noise) {
+      why += "; the reference itself is off by " + Error4(noise) + ", by less in a larger budget";
+    }
   } else {
     why = "takes " + SettingsWords(best->changed) + ": ";
     if (bound.max_relative_rmse) why += "relative RMSE " + error + " is within " + Error4(max_error);

@@ -480,6 +480,13 @@ TEST(ChosenPoint, IsTheNearestWhereNoneIsWithin) {
   EXPECT_FALSE(by_error.kept);
   EXPECT_EQ(by_error.why,
             "none of 5 points keeps relative RMSE 0.0001; takes the nearest, samples=4: relative RMSE 0.001");
+  ErrorReport coarse = report;
+  coarse.reference.relative_error = 0.0007;
+  EXPECT_EQ(ChoosePoint(coarse, {0.0005, {}}).why,
+            "none of 5 points keeps relative RMSE 0.0005; takes the nearest, samples=4: relative RMSE 0.001; the "
+            "reference itself is off by 0.0007, by less in a larger budget");
+  EXPECT_EQ(ChoosePoint(coarse, {0.0008, {}}).why,
+            "none of 5 points keeps relative RMSE 0.0008; takes the nearest, samples=4: relative RMSE 0.001");
   const Choice by_time = ChoosePoint(report, {{}, 0.01});
   EXPECT_EQ(by_time.point, 2u);
   EXPECT_FALSE(by_time.kept);
