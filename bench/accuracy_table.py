@@ -50,8 +50,11 @@ def row(report, measure_of):
     faster = min((p for p in points if p["error"][measure_of] <= error), key=lambda p: p["seconds"])
     better = min((p for p in points if p["seconds"] <= seconds), key=lambda p: p["error"][measure_of])
     rounding = (report.get("rounding") or {}).get("relative_rmse")
+    reference = report["reference"]
+    share = reference["pixels"] / (report["width"] * report["height"])
+    of_part = "" if share == 1 else f" (of {100 * share:.0f} % of the picture)"
     return [report["scene"], str(len(points)), f"{1e3 * seconds:.1f}", f"{error:.4f}",
-            f"{report['reference']['relative_error']:.4f}", "" if rounding is None else f"{rounding:.1e}",
+            f"{reference['relative_error']:.4f}{of_part}", "" if rounding is None else f"{rounding:.1e}",
             f"{seconds / faster['seconds']:.2f} ({words(faster['changed'])})",
             f"{error / max(better['error'][measure_of], 1e-300):.2f} ({words(better['changed'])})"]
 

@@ -16,27 +16,41 @@ namespace facet {
 // Options of `facet render`, name to value: {"size", "256x256"}.
 using SettingsText = std::map<std::string, std::string>;
 
+// What a rendering may cost. What is not given is not bounded.
+struct Bound {
+  std::optional<double> max_relative_rmse;  // > 0
+  std::optional<double> max_seconds;        // > 0
+};
+
 struct ReportSettings {
-  double budget_seconds = 60.0;  // wall clock, for the reference and all points; 1 to 86400
-  int threads = 0;               // 0: one per core
+  // Wall clock, for loading, the reference and all points; 1 to 86400. The first few blocks of the reference and the
+  // settings asked for are measured whatever it says, and what has been begun when it ends is finished: one rendering,
+  // or one of all points where the machine became slower meanwhile.
+  double budget_seconds = 60.0;
+  int threads = 0;  // 0: one per core
   // Called now and then from the calling thread with the share of the budget that is used and what is being done. May
   // be empty.
   std::function<void(double, const std::string&)> progress;
+  // What a point is wanted for. Where no settings come near it the report ends as soon as that is known.
+  Bound bound;
 };
 
-// How far a picture is from the reference. Over all pixels and R, G, B, in linear light that is premultiplied by alpha.
+// How far a picture is from the reference. Over all pixels that the reference has and R, G, B, in linear light that is
+// premultiplied by alpha.
 struct FilmError {
-  double rmse = 0.0;           // root of the mean squared difference
-  double relative_rmse = 0.0;  // that, divided by the root mean square of the reference
-  double largest = 0.0;        // the largest difference of a number
-  double flip = 0.0;           // mean FLIP of the developed pictures
+  double rmse = 0.0;            // root of the mean squared difference
+  double relative_rmse = 0.0;   // that, divided by the root mean square of the reference
+  double largest = 0.0;         // the largest difference of a number
+  double flip = 0.0;            // mean FLIP of the developed pictures
+  double standard_error = 0.0;  // of `relative_rmse`, where not all of the picture's pixels were compared
 };
 
 // One choice of settings, measured.
 struct ReportPoint {
   SettingsText changed;  // what differs from the settings that were asked for; empty: those themselves
   int runs = 0;
-  double seconds = 0.0;        // of Render(), median of the runs
+  // Of Render(): the median of the runs, which go round all points in turn, less what slowed whole rounds.
+  double seconds = 0.0;
   double seconds_low = 0.0;    // the fastest run
   double seconds_high = 0.0;   // the slowest
   std::size_t peak_bytes = 0;  // what the process grew by at most while rendering; 0 where it is not known
@@ -68,6 +82,9 @@ struct ErrorReport {
   struct Reference {
     int samples = 0;  // a pixel and batch
     int batches = 0;
+    // Pixels that it has of the picture, in blocks spread evenly over it: as many as there was time for. All errors are
+    // over these.
+    std::size_t pixels = 0;
     double seconds = 0.0;
     double rms_error = 0.0;  // what is left of its own error, as it estimates it
     double relative_error = 0.0;
@@ -81,12 +98,16 @@ struct ErrorReport {
   double seconds = 0.0;
   bool complete = false;  // false: the budget ended before every point was measured
   std::size_t planned_points = 0;
+  // Why no settings would keep ReportSettings::bound, one line; the report has then the points that are nearest to it,
+  // as far as is known, and the settings asked for. Empty: some may. Not stored.
+  std::string out_of_reach;
 };
 
-// Renders the reference of a scene, then the scene with every approximation's values, one at a time, and with
-// combinations of them as long as the budget lasts.
+// Renders the reference of a scene, or as much of it as half of the budget is enough for, then the scene with every
+// approximation's values, one at a time, and with combinations of them as long as the budget lasts. There is always a
+// point.
 // Throws Error: InvalidUsage for settings that do not exist or are out of range; what LoadGltf, LoadImage and Render
-// throw. A budget that ends early is no error.
+// throw.
 ErrorReport MeasureErrors(const std::filesystem::path& scene, const SettingsText& settings,
                           const ReportSettings& report = {}, const LoadOptions& load = {});
 
@@ -100,12 +121,6 @@ std::string ToCsv(const ErrorReport& report);
 // What ToJson() gave. Throws Error(InvalidInput); `name` is what messages call it.
 ErrorReport ReportFromJson(const std::string& json, const std::string& name);
 
-// What a rendering may cost. At least one of the two.
-struct Bound {
-  std::optional<double> max_relative_rmse;  // > 0
-  std::optional<double> max_seconds;        // > 0
-};
-
 // The point of a report that keeps the bound: the fastest one whose error is within, or the most exact one whose time
 // is within, or, under both, the fastest. None does: the nearest, and `kept` is false.
 struct Choice {
@@ -114,7 +129,7 @@ struct Choice {
   std::string why;  // one line, for people
 };
 
-// Throws Error(InvalidUsage) for bounds that are not positive numbers, or none; InvalidInput for a report without
+// Throws Error(InvalidUsage) for a bound that is no positive number, or none at all; InvalidInput for a report without
 // points.
 Choice ChoosePoint(const ErrorReport& report, const Bound& bound);
 

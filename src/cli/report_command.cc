@@ -11,6 +11,7 @@
 #include "cli/console.h"
 #include "facet/error.h"
 #include "facet/report.h"
+#include "report/short_number.h"
 
 namespace facet::cli {
 namespace {
@@ -32,9 +33,10 @@ void ShowProgress(double share, const std::string& what) {
 }
 
 ErrorReport Measure(const std::filesystem::path& scene, const RenderRequest& request, const LoadOptions& load,
-                    double budget_seconds, bool quiet) {
+                    double budget_seconds, const Bound& bound, bool quiet) {
   ReportSettings settings;
   settings.budget_seconds = budget_seconds;
+  settings.bound = bound;
   settings.threads = request.settings.threads;
   const bool shown = !quiet && isatty(STDERR_FILENO) == 1;
   if (shown) settings.progress = ShowProgress;
@@ -82,13 +84,18 @@ void RunReport(const ReportOptions& options) {
   }
   RefuseOverwriting(options.outputs, {options.input});
   const ErrorReport report =
-      Measure(options.input, options.request, options.load, options.budget_seconds, options.quiet);
+      Measure(options.input, options.request, options.load, options.budget_seconds, {}, options.quiet);
   for (const std::filesystem::path& output : options.outputs) {
     const std::string text = WriterFor(output)(report);
     WriteFile(output, text);
   }
   for (const std::string& warning : report.warnings) {
     if (!options.quiet) PrintWarning(warning);
+  }
+  const std::size_t pixels = std::size_t(report.width) * std::size_t(report.height);
+  if (report.reference.pixels < pixels && !options.quiet) {
+    PrintNote("errors are over " + ShortNumber(100.0 * double(report.reference.pixels) / double(pixels), 2) +
+              " % of the picture's pixels, in blocks spread over it, for which there was time");
   }
   if (!report.complete && !options.quiet) {
     PrintWarning("the budget ended after " + std::to_string(report.points.size()) + " of at least " +
@@ -102,10 +109,11 @@ Choice ChooseApproximations(RenderOptions& options) {
     report = ReportFromJson(std::string(ReadFile(*options.report).Text()), Printable(options.report->string()));
     RefuseOtherSettings(report, options);
   } else {
-    report =
-        Measure(options.input, options.request, options.load, options.budget_seconds.value_or(30.0), options.quiet);
+    report = Measure(options.input, options.request, options.load, options.budget_seconds.value_or(30.0), options.bound,
+                     options.quiet);
   }
   Choice choice = ChoosePoint(report, options.bound);
+  if (!choice.kept && !report.out_of_reach.empty()) choice.why += "; " + report.out_of_reach;
   if (!report.complete) {
     choice.why += "; the budget ended after " + std::to_string(report.points.size()) + " of at least " +
                   std::to_string(report.planned_points) + " points";

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <cmath>
 #include <optional>
 
@@ -43,7 +42,6 @@ void CheckSettings(const RenderSettings& settings, const ReferenceSettings& refe
   CheckRange("a number of batches", reference.batches, 2, 65536);
   CheckRange("a target error", reference.target_error, 0, kInfinity);
   CheckRange("a time budget", reference.time_budget, 0, kInfinity);
-  CheckRange("a time to give up after", reference.give_up_after, 0, kInfinity);
   if (settings.environment.kind == EnvironmentSettings::Kind::Image && settings.environment.image == nullptr &&
       settings.environment.source == nullptr) {
     throw Error(ErrorCode::InvalidUsage, "no environment picture", "reference settings",
@@ -190,7 +188,7 @@ class ReferenceScene {
   mutable std::atomic<std::uint64_t> non_finite_{0};
 };
 
-// The overall errors of a film whose `standard_error` is filled.
+// The overall errors of a film whose `standard_error` is filled. What is not known is 0, and adds nothing.
 void SumUp(ReferenceFilm& film) {
   double light = 0.0, error = 0.0;
   for (std::size_t i = 0; i < film.pixels.size(); ++i) {
@@ -198,72 +196,171 @@ void SumUp(ReferenceFilm& film) {
     light += glm::dot(color, color);
     error += glm::dot(deviation, deviation);
   }
-  film.rms_error = std::sqrt(error / (3.0 * double(film.pixels.size())));
+  film.rms_error = std::sqrt(error / (3.0 * double(film.known_pixels)));
   film.relative_error = light > 0.0 ? std::sqrt(error / light) : 0.0;
 }
 
-ReferenceFilm RenderBatches(const Scene& scene, const RenderSettings& settings, const ReferenceSettings& reference) {
-  using Clock = std::chrono::steady_clock;
-  const auto start = Clock::now();
-  const auto elapsed = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
-  ReferenceFilm film;
-  film.width = settings.width;
-  film.height = settings.height;
-  const ReferenceScene prepared(scene, settings, reference, film.notes);
-  const std::size_t count = std::size_t(film.width) * std::size_t(film.height);
-  film.pixels.assign(count, glm::dvec4(0.0));
-  film.standard_error.assign(count, glm::dvec4(0.0));
-  std::vector<glm::dvec4> squares(count, glm::dvec4(0.0));  // of deviations from the mean, summed
-  constexpr std::size_t kGrain = 32;                        // pixels
-  std::atomic<bool> late{false};
-  for (double before = elapsed(); film.batches < reference.batches;) {
-    ParallelFor(count, kGrain, [&](std::size_t begin, std::size_t end) {
-      if (late || (film.batches < 2 && elapsed() > reference.give_up_after)) {
-        late = true;
-        return;
-      }
-      ReferenceScene::Scratch scratch;
-      for (std::size_t i = begin; i < end; ++i) {
-        const int x = int(i % std::size_t(film.width)), y = int(i / std::size_t(film.width));
-        const glm::dvec4 value = prepared.Pixel(x, y, film.batches, scratch);
-        // Welford, 1962, Note on a Method for Calculating Corrected Sums of Squares and Products.
-        const double n = film.batches + 1.0;
-        const glm::dvec4 off = value - film.pixels[i];
-        film.pixels[i] += off / n;
-        squares[i] += off * (value - film.pixels[i]);
-        film.standard_error[i] = glm::sqrt(squares[i] / (n * std::max(n - 1.0, 1.0)));
-      }
-    });
-    if (late) {
-      throw Error(ErrorCode::InvalidUsage,
-                  "a reference of " + std::to_string(film.width) + " x " + std::to_string(film.height) +
-                      " pixels is not done in the time there is",
-                  {}, "give it a larger budget, or a smaller picture");
-    }
-    ++film.batches;
-    SumUp(film);
-    if (settings.progress) settings.progress(double(film.batches) / reference.batches);
-    const double now = elapsed(), next = now + (now - before);
-    before = now;
-    if (film.batches >= 4 && film.relative_error <= reference.target_error) break;
-    if (film.batches >= 2 && next > reference.time_budget) break;
-  }
-  if (prepared.NonFinite() > 0) {
-    film.notes.push_back(std::to_string(prepared.NonFinite()) + " samples were not finite, and became black");
-  }
-  film.seconds = elapsed();
-  return film;
+RenderSettings WithoutWhatIsUnused(RenderSettings settings) {
+  settings.omit_unused = true;
+  return settings;
 }
 
 }  // namespace
 
-ReferenceFilm RenderReference(const Scene& scene, const RenderSettings& settings, const ReferenceSettings& reference) {
+class ReferenceRun::Work {
+ public:
+  Work(const Scene& scene, const RenderSettings& settings, const ReferenceSettings& reference)
+      : settings_(WithoutWhatIsUnused(settings)),
+        reference_(reference),
+        start_(reference.clock()),
+        prepared_(scene, settings_, reference_, notes_),
+        order_(SpreadBlocks(settings.width, settings.height, reference.seed)) {
+    film_.width = settings_.width;
+    film_.height = settings_.height;
+    const std::size_t count = std::size_t(film_.width) * std::size_t(film_.height);
+    film_.pixels.assign(count, glm::dvec4(0.0));
+    film_.standard_error.assign(count, glm::dvec4(0.0));
+    squares_.assign(count, glm::dvec4(0.0));
+    preparation_seconds_ = Elapsed();
+  }
+
+  int Threads() const { return settings_.threads; }
+
+  const ReferenceFilm& Continue(double seconds) {
+    if (!film_.whole) MakeBlocks(seconds);
+    while (film_.whole && film_.batches < reference_.batches) {
+      if (film_.batches >= kFewestForTarget && film_.relative_error <= reference_.target_error) break;
+      const double before = Elapsed();
+      if (before + batch_seconds_ > seconds) break;
+      MakeBatch();
+      SumUp(film_);
+      batch_seconds_ = Elapsed() - before;
+      Tell();
+    }
+    film_.notes = notes_;
+    if (prepared_.NonFinite() > 0) {
+      film_.notes.push_back(std::to_string(prepared_.NonFinite()) + " samples were not finite, and became black");
+    }
+    film_.seconds = Elapsed();
+    return film_;
+  }
+
+  double SecondsFor(double relative_error) const {
+    if (film_.relative_error <= relative_error) return film_.seconds;
+    // More batches are made of the whole picture only. The error of a mean falls with the root of their number.
+    const double share = double(film_.known_pixels) / double(film_.pixels.size());
+    const double ratio = film_.relative_error / relative_error;
+    return preparation_seconds_ + blocks_seconds_ / share * film_.batches * ratio * ratio / 2.0;
+  }
+
+ private:
+  // Each of at least so many blocks with light in them, but no more than that of black ones, is made whatever the time.
+  static constexpr std::size_t kFewestLitBlocks = 16, kFewestBlocks = 128;
+  static constexpr int kFewestForTarget = 4;            // batches
+  static constexpr double kSecondsBetweenWords = 0.25;  // of progress
+
+  double Elapsed() const { return reference_.clock() - start_; }
+
+  // Of one batch, for whoever watches: blocks count as they are made.
+  void Tell() const {
+    if (!settings_.progress) return;
+    const double done = film_.whole ? film_.batches : 2.0 * double(film_.blocks.size()) / double(order_.size());
+    settings_.progress(done / reference_.batches);
+  }
+
+  // Adds the batch to what is known of pixel (x, y) from as many as `batch`: Welford, 1962, Note on a Method for
+  // Calculating Corrected Sums of Squares and Products.
+  void AddBatch(int x, int y, int batch, ReferenceScene::Scratch& scratch) {
+    const std::size_t i = std::size_t(y) * std::size_t(film_.width) + std::size_t(x);
+    const glm::dvec4 value = prepared_.Pixel(x, y, batch, scratch);
+    const double n = batch + 1.0;
+    const glm::dvec4 off = value - film_.pixels[i];
+    film_.pixels[i] += off / n;
+    squares_[i] += off * (value - film_.pixels[i]);
+    film_.standard_error[i] = glm::sqrt(squares_[i] / (n * std::max(n - 1.0, 1.0)));
+  }
+
+  // Whether there is light in it.
+  bool MakeBlock(const PixelBlock& block, ReferenceScene::Scratch& scratch) {
+    glm::dvec4 sum(0.0);
+    for (int y = block.y; y < block.y + block.height; ++y) {
+      for (int x = block.x; x < block.x + block.width; ++x) {
+        for (int batch = 0; batch < 2; ++batch) AddBatch(x, y, batch, scratch);
+        sum += film_.pixels[std::size_t(y) * std::size_t(film_.width) + std::size_t(x)];
+      }
+    }
+    return sum.x + sum.y + sum.z > 0.0;
+  }
+
+  bool HasEnough() const { return lit_blocks_ >= kFewestLitBlocks || next_block_ >= kFewestBlocks; }
+
+  void MakeBlocks(double seconds) {
+    const double before = Elapsed();
+    while (next_block_ < order_.size() && !(HasEnough() && Elapsed() >= seconds)) {
+      const double pause = std::min(Elapsed() + kSecondsBetweenWords, seconds);
+      // Each thread takes the next block until it is time: what is made is always the order's beginning.
+      ParallelFor(std::size_t(CurrentThreadCount()), 1, [&](std::size_t, std::size_t) {
+        ReferenceScene::Scratch scratch;
+        do {
+          const std::size_t taken = next_block_++;
+          if (taken >= order_.size()) return;
+          if (MakeBlock(order_[taken], scratch)) ++lit_blocks_;
+        } while (!HasEnough() || Elapsed() < pause);
+      });
+      next_block_ = std::min(next_block_.load(), order_.size());
+      film_.blocks.assign(order_.begin(), order_.begin() + std::ptrdiff_t(next_block_.load()));
+      Tell();
+    }
+    film_.known_pixels = 0;
+    for (const PixelBlock& block : film_.blocks) film_.known_pixels += std::size_t(block.width * block.height);
+    film_.whole = next_block_ == order_.size();
+    film_.batches = 2;
+    SumUp(film_);
+    blocks_seconds_ += Elapsed() - before;
+    batch_seconds_ = 0.5 * blocks_seconds_;
+  }
+
+  void MakeBatch() {
+    constexpr std::size_t kGrain = 32;  // pixels
+    ParallelFor(film_.pixels.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+      ReferenceScene::Scratch scratch;
+      const std::size_t width = std::size_t(film_.width);
+      for (std::size_t i = begin; i < end; ++i) AddBatch(int(i % width), int(i / width), film_.batches, scratch);
+    });
+    ++film_.batches;
+  }
+
+  const RenderSettings settings_;
+  const ReferenceSettings reference_;
+  const double start_;
+  std::vector<std::string> notes_;
+  const ReferenceScene prepared_;
+  const std::vector<PixelBlock> order_;
+  ReferenceFilm film_;
+  std::vector<glm::dvec4> squares_;  // of deviations from the mean, summed
+  std::atomic<std::size_t> next_block_{0}, lit_blocks_{0};
+  double preparation_seconds_ = 0.0;
+  double blocks_seconds_ = 0.0;  // for the blocks that there are
+  double batch_seconds_ = 0.0;   // for one batch of all
+};
+
+ReferenceRun::ReferenceRun(const Scene& scene, const RenderSettings& settings, const ReferenceSettings& reference) {
   CheckSettings(settings, reference);
-  RenderSettings used = settings;
-  used.omit_unused = true;
-  ReferenceFilm film;
-  RunWithThreads(used.threads, [&] { film = RenderBatches(scene, used, reference); });
-  return film;
+  RunWithThreads(settings.threads, [&] { work_ = std::make_unique<Work>(scene, settings, reference); });
+}
+
+ReferenceRun::~ReferenceRun() = default;
+
+const ReferenceFilm& ReferenceRun::Continue(double seconds) {
+  const ReferenceFilm* film = nullptr;
+  RunWithThreads(work_->Threads(), [&] { film = &work_->Continue(seconds); });
+  return *film;
+}
+
+double ReferenceRun::SecondsFor(double relative_error) const { return work_->SecondsFor(relative_error); }
+
+ReferenceFilm RenderReference(const Scene& scene, const RenderSettings& settings, const ReferenceSettings& reference) {
+  return ReferenceRun(scene, settings, reference).Continue(reference.time_budget);
 }
 
 Film ToFilm(const ReferenceFilm& reference) {

@@ -16,7 +16,17 @@ namespace facet {
 // where it does not say.
 std::size_t PeakBytes(const std::function<void()>& body);
 
-// The error of `film` against `reference`, both of one size, less FLIP.
+// What one point's runs say.
+struct PointTime {
+  double median = 0.0, low = 0.0, high = 0.0;  // seconds; the fastest and the slowest run
+};
+
+// `rounds`: of each round the seconds of every point, one run each. A machine that is slow for a while is so in whole
+// rounds, so the median is that of a point's shares of its rounds, times the median round: what slows some rounds slows
+// all points alike, whichever of them it caught.
+std::vector<PointTime> TimesOf(const std::vector<std::vector<double>>& rounds);
+
+// The error of `film` against what `reference` knows of a picture of the same size, less FLIP.
 FilmError ErrorOf(const Film& film, const ReferenceFilm& reference);
 
 // The same against another film.
@@ -26,7 +36,27 @@ FilmError ErrorOf(const Film& film, const Film& reference);
 // `longest` pixels; rows and columns that do not fill a pixel are left out.
 Film Reduced(const Film& film, int longest);
 
-// The same for a picture of type F32 with one channel.
-Image Reduced(const Image& image, int longest);
+// FLIP of developed pictures against a reference's. Where that knows blocks of the picture only, each is a picture by
+// itself, whose borders FLIP continues outwards: that makes the mean about 3 % larger.
+class FlipJudge {
+ public:
+  // `developed`: of the reference, integers.
+  FlipJudge(const ReferenceFilm& reference, const Image& developed);
+
+  struct Verdict {
+    double mean = 0.0;
+    std::vector<float> errors;  // of each pixel, 0 to 1; 0 where the reference is not known
+  };
+  Verdict Judge(const Image& developed) const;
+
+  // The errors as HeatMap() shows them, reduced as a film is; transparent where nothing is known.
+  Image Map(const Verdict& verdict, int longest) const;
+
+ private:
+  Image light_;
+  std::vector<PixelBlock> parts_;
+  std::size_t known_pixels_;
+  bool whole_;
+};
 
 }  // namespace facet

@@ -1,79 +1,54 @@
-// MeasureErrors of facet/report.h: the reference, then one point after the other.
+// MeasureErrors of facet/report.h: the reference, then one point after the other, then the times of all in turn.
+#include "report/measure_errors.h"
+
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <memory>
 #include <set>
-#include <sstream>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "base/parallel.h"
 #include "facet/compare.h"
 #include "facet/error.h"
-#include "facet/report.h"
 #include "facet/version.h"
 #include "image/codec.h"
 #include "light/studio_table.h"
 #include "reference/reference.h"
 #include "render/render_in_double.h"
+#include "report/knobs.h"
 #include "report/measure.h"
 #include "report/render_request.h"
+#include "report/report_words.h"
 
 namespace facet {
 namespace {
 
 constexpr int kThumbnail = 256;                // pixels along the longer side
 constexpr double kReferenceShare = 0.5;        // of the budget
-constexpr double kShortestWait = 20.0;         // seconds for the least reference there is, whatever the budget
-constexpr int kFewestRuns = 3, kMostRuns = 7;  // of a point: about a second of them
-
-class Clock {
- public:
-  double Seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
-// An approximation that this scene's picture depends on.
-struct Knob {
-  std::string option;
-  std::vector<std::string> values;  // from cheap to exact
-  std::size_t used = 0;             // index of the value that was asked for
-};
-
-std::vector<std::string> Words(std::string_view text) {
-  std::istringstream stream{std::string(text)};
-  std::vector<std::string> words;
-  for (std::string word; stream >> word;) words.push_back(word);
-  return words;
-}
-
-// Every approximation, with the value in use put among those that are tried.
-std::vector<Knob> AllKnobs(const SettingsText& settings) {
-  std::vector<Knob> knobs;
-  for (const RequestOption& option : RequestOptions()) {
-    if (option.sweep.empty()) continue;
-    Knob knob{std::string(option.name), Words(option.sweep), 0};
-    const std::string& used = settings.at(knob.option);
-    auto place = std::find(knob.values.begin(), knob.values.end(), used);
-    if (place == knob.values.end()) {  // only numbers have values between those that are tried
-      place = std::find_if(knob.values.begin(), knob.values.end(),
-                           [&](const std::string& value) { return std::stoi(value) > std::stoi(used); });
-      place = knob.values.insert(place, used);
-    }
-    knob.used = std::size_t(place - knob.values.begin());
-    knobs.push_back(std::move(knob));
-  }
-  return knobs;
-}
+constexpr double kFirstLookShare = 0.05;       // of the budget, for a reference that only tells whether a bound is far
+constexpr double kMostBudget = 86400.0;        // seconds
+constexpr int kFewestRuns = 3, kMostRuns = 7;  // of a point: about a second of them, if there is time
+constexpr double kSparedRuns = 2.5;            // for which time is left when points are added: two, and what they may
+                                               // take longer than expected
+// Rendering in double takes 1 to 4 times as long as on lanes (the bundled scenes and DamagedHelmet).
+constexpr double kDoubleToLanes = 5.0;
+// By what factor the ends of all approximations together must miss a bound for it to be out of reach. Their errors are
+// not quite the least there are: CesiumMan's picture has two thirds of it without mip levels. And times vary.
+constexpr double kFar = 1.6;
 
 class Sweep {
  public:
-  Sweep(const LoadedScene& loaded, const RenderRequest& request, RenderSettings resolved, const ReportSettings& report)
-      : scene_(loaded.scene), request_(request), resolved_(std::move(resolved)), report_(report) {
+  Sweep(const Clock& clock, double start, const LoadedScene& loaded, const RenderRequest& request,
+        RenderSettings resolved, const ReportSettings& report)
+      : scene_(loaded.scene),
+        request_(request),
+        resolved_(std::move(resolved)),
+        report_(report),
+        clock_(clock),
+        start_(start) {
     if (resolved_.environment.kind == EnvironmentSettings::Kind::Studio) {
       studio_ = std::make_shared<const Image>(StudioPicture(kStudioWidth, kStudioHeight));
       largest_environment_ = kStudioMaxSize;
@@ -86,37 +61,114 @@ class Sweep {
   }
 
   ErrorReport Run() {
-    MeasureReference();
-    Film used;
-    Measure({}, &used);
-    MeasureRounding(used);
-    MeasureOneByOne(used);
-    MeasureCombinations();
+    BeginReference();
+    Render(scene_, SettingsOf({}));  // warms caches that all points share
+    std::vector<Drawn> ends;
+    if (report_.bound.max_seconds || report_.bound.max_relative_rmse) ends = DrawEnds();
+    if (out_.out_of_reach.empty()) ContinueReference(kReferenceShare);
+    TakeReference();
+    Say("the settings asked for");
+    const Drawn used = Draw({});
+    AddPoint(used);
+    for (const Drawn& end : ends) AddPoint(end);
+    ends.clear();
+    if (out_.out_of_reach.empty()) {
+      MeasureRounding(used);
+      MeasureOneByOne(used);
+      MeasureCombinations();
+    }
+    TimeInTurn();
+    CompleteCosts();
     MarkParetoFront();
-    out_.seconds = clock_.Seconds();
+    out_.seconds = Elapsed();
     out_.planned_points = out_.points.size() + unmeasured_;
     out_.complete = unmeasured_ == 0;
     return std::move(out_);
   }
 
  private:
-  bool OutOfTime() const { return clock_.Seconds() >= report_.budget_seconds; }
+  // A rendering, not yet a point.
+  struct Drawn {
+    SettingsText changed;
+    Film film;
+    double seconds = 0.0;
+    std::size_t peak_bytes = 0;
+    double spent = 0.0;  // seconds, with what is around the rendering
+  };
+
+  double Elapsed() const { return clock_() - start_; }
 
   void Say(const std::string& what) const {
-    if (report_.progress) report_.progress(std::min(clock_.Seconds() / report_.budget_seconds, 1.0), what);
+    if (report_.progress) report_.progress(std::min(Elapsed() / report_.budget_seconds, 1.0), what);
   }
 
-  void MeasureReference() {
+  // Whether there is time for so many more points, and then for timing all of them.
+  bool Affords(std::size_t more) {
+    if (late_) return false;
+    const double count = double(out_.points.size()), grown = (count + double(more)) / count;
+    const double needed = double(more) * visits_seconds_ / count + kSparedRuns * round_seconds_ * grown;
+    const bool fits = Elapsed() + needed <= report_.budget_seconds;
+    late_ = !fits && more == 1;
+    return fits;
+  }
+
+  void BeginReference() {
     Say("reference");
-    ReferenceSettings settings;
-    settings.samples = 16;
-    settings.batches = 65536;
-    settings.time_budget = kReferenceShare * report_.budget_seconds;
-    settings.give_up_after = std::max(2.0 * report_.budget_seconds, kShortestWait);
-    reference_ = RenderReference(scene_, resolved_, settings);
-    developed_reference_ = Develop(ToFilm(reference_), request_.display);
-    out_.reference = {settings.samples,     reference_.batches,        reference_.seconds,
-                      reference_.rms_error, reference_.relative_error, reference_.notes};
+    RenderSettings settings = resolved_;
+    settings.progress = [this](double) { Say("reference"); };
+    ReferenceSettings reference;
+    reference.samples = out_.reference.samples = 16;
+    reference.batches = 65536;
+    reference.clock = clock_;
+    reference_began_ = Elapsed();
+    reference_ = std::make_unique<ReferenceRun>(scene_, settings, reference);
+  }
+
+  // Until that share of the budget is used.
+  void ContinueReference(double share) {
+    reference_film_ = &reference_->Continue(share * report_.budget_seconds - reference_began_);
+  }
+
+  void TakeReference() {
+    const ReferenceFilm& film = *reference_film_;
+    flip_ = std::make_unique<FlipJudge>(film, Develop(ToFilm(film), request_.display));
+    ErrorReport::Reference& out = out_.reference;
+    out = {out.samples, film.batches, film.known_pixels, film.seconds, film.rms_error, film.relative_error, film.notes};
+  }
+
+  // All approximations at their cheapest, and at their most exact: what is most likely to keep a bound. Says in
+  // `out_of_reach` where it is far beyond them.
+  std::vector<Drawn> DrawEnds() {
+    Say("whether the bound is in reach");
+    ContinueReference(kFirstLookShare);
+    const std::vector<Knob> knobs = AllKnobs(out_.settings, largest_environment_);
+    std::vector<Drawn> ends;
+    ends.push_back(Draw(Turned(knobs, [](const Knob&) { return std::size_t(0); })));
+    ends.push_back(Draw(Turned(knobs, [](const Knob& knob) { return knob.Last(); })));
+    const Bound& bound = report_.bound;
+    if (bound.max_seconds && ends[0].seconds > kFar * *bound.max_seconds) {
+      const RenderSettings settings = SettingsOf(ends[0].changed);
+      const double again = SecondsOf([&] { Render(scene_, settings); });
+      if (again > kFar * *bound.max_seconds) out_.out_of_reach = "not even the cheapest settings come near it";
+    }
+    if (bound.max_relative_rmse && out_.out_of_reach.empty()) LookAtError(ends[1].film, *bound.max_relative_rmse);
+    std::erase_if(ends, [](const Drawn& end) { return end.changed.empty(); });
+    return ends;
+  }
+
+  void LookAtError(const Film& most_exact, double bound) {
+    const FilmError error = ErrorOf(most_exact, *reference_film_);
+    const double least = std::max(error.relative_rmse - 2.0 * error.standard_error, 0.0);
+    const double noise = reference_film_->relative_error, far = kFar * bound;
+    // Most of the error must be that of the settings: how much the noise adds is not known well.
+    if (least * least - 2.0 * noise * noise > far * far) {
+      out_.out_of_reach = "not even the most exact settings come near it";
+    } else if (reference_began_ + reference_->SecondsFor(far) > kReferenceShare * report_.budget_seconds) {
+      const double budget = (reference_began_ + reference_->SecondsFor(0.5 * bound)) / kReferenceShare;
+      out_.out_of_reach = "in this budget the reference would be less exact than that; " +
+                          (budget > kMostBudget ? "no budget is large enough"
+                                                : "one of about " + TimeWords(budget) + " is large enough");
+    }
   }
 
   RenderSettings SettingsOf(const SettingsText& changed) const {
@@ -138,119 +190,97 @@ class Sweep {
     settings.environment.image = studio_;
   }
 
-  // Every approximation; of the environment's sizes those that make a difference.
-  std::vector<Knob> Knobs() const {
-    SettingsText settings = out_.settings;
-    std::string& size = settings.at("environment-size");
-    size = std::to_string(std::min(std::stoi(size), largest_environment_));
-    std::vector<Knob> knobs = AllKnobs(settings);
-    for (Knob& knob : knobs) {
-      if (knob.option != "environment-size") continue;
-      std::erase_if(knob.values, [&](const std::string& value) { return std::stoi(value) > largest_environment_; });
-    }
-    return knobs;
+  template <class Body>
+  double SecondsOf(const Body& body) const {
+    const double before = clock_();
+    body();
+    return clock_() - before;
   }
 
-  // Adds a point; `kept` gets its film.
-  void Measure(const SettingsText& changed, Film* kept = nullptr) {
+  Drawn Draw(const SettingsText& changed) {
     const RenderSettings settings = SettingsOf(changed);
-    ReportPoint point;
-    point.changed = changed;
-    Film film;
+    Drawn drawn;
+    drawn.changed = changed;
     RenderStats stats;
-    std::vector<double> seconds;
-    const auto run = [&] {
-      const Clock clock;
-      film = Render(scene_, settings, &stats);
-      seconds.push_back(clock.Seconds());
-    };
-    // The first run is for memory; it also warms caches that all points share, so its time does not count.
-    point.peak_bytes = PeakBytes(run);
-    const int wanted = std::clamp(static_cast<int>(1.0 / seconds[0]), kFewestRuns, kMostRuns);
-    seconds.clear();
-    do run();
-    while (int(seconds.size()) < wanted && !OutOfTime());
-    std::sort(seconds.begin(), seconds.end());
-    point.runs = int(seconds.size());
-    point.seconds = seconds[seconds.size() / 2];
-    point.seconds_low = seconds.front();
-    point.seconds_high = seconds.back();
-
-    point.error = ErrorOf(film, reference_);
-    ImageDifference difference = CompareImages(developed_reference_, Develop(film, request_.display));
-    point.error.flip = difference.flip_mean;
-    point.picture_png = EncodePng(Develop(Reduced(film, kThumbnail), request_.display));
-    difference.flip_map = Reduced(difference.flip_map, kThumbnail);
-    difference.width = difference.flip_map.width;
-    difference.height = difference.flip_map.height;
-    point.error_map_png = EncodePng(HeatMap(difference));
+    drawn.spent = SecondsOf([&] {
+      drawn.peak_bytes =
+          PeakBytes([&] { drawn.seconds = SecondsOf([&] { drawn.film = Render(scene_, settings, &stats); }); });
+    });
     out_.target = stats.target;
     out_.threads = stats.threads;
     if (changed.empty()) out_.warnings = stats.warnings;
-    out_.points.push_back(std::move(point));
-    measured_.insert(changed);
-    if (kept != nullptr) *kept = std::move(film);
+    return drawn;
   }
 
-  void MeasureRounding(const Film& used) {
-    if (OutOfTime()) return;
+  // Its time is that of one run, for the time being.
+  void AddPoint(const Drawn& drawn) {
+    const double before = Elapsed();
+    ReportPoint point;
+    point.changed = drawn.changed;
+    point.seconds = drawn.seconds;
+    point.peak_bytes = drawn.peak_bytes;
+    point.error = ErrorOf(drawn.film, *reference_film_);
+    const FlipJudge::Verdict flip = flip_->Judge(Develop(drawn.film, request_.display));
+    point.error.flip = flip.mean;
+    point.picture_png = EncodePng(Develop(Reduced(drawn.film, kThumbnail), request_.display));
+    point.error_map_png = EncodePng(flip_->Map(flip, kThumbnail));
+    out_.points.push_back(std::move(point));
+    measured_.insert(drawn.changed);
+    round_seconds_ += drawn.seconds;
+    visits_seconds_ += drawn.spent + (Elapsed() - before);
+  }
+
+  void MeasureRounding(const Drawn& used) {
+    if (Elapsed() + kDoubleToLanes * used.seconds + kSparedRuns * round_seconds_ > report_.budget_seconds) return;
     Say("rounding");
     const Film exact = RenderInDouble(scene_, resolved_);
-    FilmError error = ErrorOf(used, exact);
-    error.flip = CompareImages(Develop(exact, request_.display), Develop(used, request_.display)).flip_mean;
+    FilmError error = ErrorOf(used.film, exact);
+    error.flip = CompareImages(Develop(exact, request_.display), Develop(used.film, request_.display)).flip_mean;
     out_.rounding = error;
   }
 
   // Each approximation by itself. One whose cheapest and most exact values change nothing is not for this scene.
-  void MeasureOneByOne(const Film& used) {
-    for (Knob& knob : Knobs()) {
-      if (OutOfTime()) {
-        ++unmeasured_;
+  void MeasureOneByOne(const Drawn& used) {
+    for (Knob& knob : AllKnobs(out_.settings, largest_environment_)) {
+      std::vector<std::size_t> ends;
+      for (const std::size_t end : {std::size_t(0), knob.Last()}) {
+        if (end != knob.used) ends.push_back(end);
+      }
+      if (!Affords(ends.size())) {
+        unmeasured_ += ends.size();
         continue;
       }
-      const std::size_t last = knob.values.size() - 1;
-      const Film cheapest = Render(scene_, SettingsOf({{knob.option, knob.values.front()}}));
-      const Film exact = Render(scene_, SettingsOf({{knob.option, knob.values[last]}}));
-      if (SameBits(cheapest, used) && SameBits(exact, used)) continue;
+      Say(knob.option);
+      std::vector<Drawn> drawn;
+      for (const std::size_t end : ends) drawn.push_back(Draw({{knob.option, knob.values[end]}}));
+      if (std::all_of(drawn.begin(), drawn.end(), [&](const Drawn& d) { return SameBits(d.film, used.film); }))
+        continue;
+      for (const Drawn& d : drawn) AddPoint(d);
       ApproximationCost cost;
       cost.option = knob.option;
       cost.used = knob.values[knob.used];
       cost.cheapest = knob.values.front();
-      cost.most_exact = knob.values[last];
-      cost.change = ErrorOf(used, exact).relative_rmse;
-      const bool measured = MeasureValue(knob, 0) && MeasureValue(knob, last);
+      cost.most_exact = knob.values.back();
+      if (knob.used != knob.Last()) cost.change = ErrorOf(used.film, drawn.back().film).relative_rmse;
+      out_.costs.push_back(std::move(cost));
       knobs_.push_back(std::move(knob));
-      if (!measured) continue;
-      Read(cost.used, cost, cost.error_used, cost.seconds_used);
-      Read(cost.cheapest, cost, cost.error_cheapest, cost.seconds_cheapest);
-      Read(cost.most_exact, cost, cost.error_most_exact, cost.seconds_most_exact);
-      out_.costs.push_back(cost);
     }
     for (const Knob& knob : knobs_) {
-      for (std::size_t i = 1; i + 1 < knob.values.size(); ++i) MeasureValue(knob, i);
+      for (std::size_t i = 1; i < knob.Last(); ++i) {
+        if (i != knob.used) MeasurePoint({{knob.option, knob.values[i]}});
+      }
     }
   }
 
   // False: there was no time left.
-  bool MeasureValue(const Knob& knob, std::size_t value) {
-    if (value == knob.used) return true;
-    if (OutOfTime()) {
+  bool MeasurePoint(const SettingsText& changed) {
+    if (!Affords(1)) {
       ++unmeasured_;
       return false;
     }
-    Say(knob.option + " " + knob.values[value]);
-    Measure({{knob.option, knob.values[value]}});
+    Say(SettingsWords(changed));
+    AddPoint(Draw(changed));
     return true;
-  }
-
-  // The point with one value of an approximation, all else as asked for.
-  void Read(const std::string& value, const ApproximationCost& cost, double& error, double& seconds) const {
-    const SettingsText changed = value == cost.used ? SettingsText{} : SettingsText{{cost.option, value}};
-    for (const ReportPoint& point : out_.points) {
-      if (point.changed != changed) continue;
-      error = point.error.relative_rmse;
-      seconds = point.seconds;
-    }
   }
 
   // From the points on the front one step further, in every approximation and direction, until there is no new point.
@@ -260,36 +290,64 @@ class Sweep {
       MarkParetoFront();
       std::vector<SettingsText> next;
       for (const ReportPoint& point : out_.points) {
-        if (point.pareto) AddNeighbours(point.changed, next);
-      }
-      for (std::size_t i = 0; i < next.size(); ++i) {
-        if (OutOfTime()) {
-          unmeasured_ += next.size() - i;
-          return;
+        if (!point.pareto) continue;
+        for (SettingsText& neighbour : NeighboursOf(point.changed, knobs_)) {
+          if (measured_.count(neighbour) > 0) continue;
+          if (std::find(next.begin(), next.end(), neighbour) == next.end()) next.push_back(std::move(neighbour));
         }
-        Say("combination " + std::to_string(out_.points.size()));
-        Measure(next[i]);
-        grew = true;
       }
+      for (const SettingsText& changed : next) grew = MeasurePoint(changed) || grew;
     }
   }
 
-  void AddNeighbours(const SettingsText& from, std::vector<SettingsText>& next) {
-    for (const Knob& knob : knobs_) {
-      const auto changed = from.find(knob.option);
-      const std::string& value = changed != from.end() ? changed->second : knob.values[knob.used];
-      const auto place = std::size_t(std::find(knob.values.begin(), knob.values.end(), value) - knob.values.begin());
-      for (const std::size_t step : {place - 1, place + 1}) {
-        if (step >= knob.values.size()) continue;  // also one below the first
-        SettingsText neighbour = from;
-        if (step == knob.used) {
-          neighbour.erase(knob.option);
-        } else {
-          neighbour[knob.option] = knob.values[step];
-        }
-        if (measured_.count(neighbour) > 0) continue;
-        if (std::find(next.begin(), next.end(), neighbour) == next.end()) next.push_back(std::move(neighbour));
+  // Rounds over all points, forwards and backwards in turn.
+  void TimeInTurn() {
+    const std::size_t count = out_.points.size();
+    std::vector<RenderSettings> settings;
+    for (const ReportPoint& point : out_.points) settings.push_back(SettingsOf(point.changed));
+    const double in_a_second = double(count) / std::max(round_seconds_, 1e-9);
+    const int wanted = out_.out_of_reach.empty()
+                           ? static_cast<int>(std::clamp(in_a_second, double(kFewestRuns), double(kMostRuns)))
+                           : 1;
+    std::vector<std::vector<double>> rounds;
+    while (int(rounds.size()) < wanted) {
+      if (!rounds.empty() && Elapsed() + round_seconds_ > report_.budget_seconds) break;
+      Say("times, round " + std::to_string(rounds.size() + 1) + " of " + std::to_string(wanted));
+      std::vector<double>& round = rounds.emplace_back(count);
+      const double begun = clock_();
+      double last = begun;
+      for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t point = rounds.size() % 2 == 1 ? i : count - 1 - i;
+        Render(scene_, settings[point]);
+        const double now = clock_();
+        round[point] = now - std::exchange(last, now);
       }
+      round_seconds_ = last - begun;
+    }
+    const std::vector<PointTime> times = TimesOf(rounds);
+    for (std::size_t i = 0; i < count; ++i) {
+      ReportPoint& point = out_.points[i];
+      point.runs = int(rounds.size());
+      point.seconds = times[i].median;
+      point.seconds_low = times[i].low;
+      point.seconds_high = times[i].high;
+    }
+  }
+
+  // What the points say of each approximation's three values.
+  void CompleteCosts() {
+    for (ApproximationCost& cost : out_.costs) {
+      const auto read = [&](const std::string& value, double& error, double& seconds) {
+        const SettingsText changed = value == cost.used ? SettingsText{} : SettingsText{{cost.option, value}};
+        for (const ReportPoint& point : out_.points) {
+          if (point.changed != changed) continue;
+          error = point.error.relative_rmse;
+          seconds = point.seconds;
+        }
+      };
+      read(cost.used, cost.error_used, cost.seconds_used);
+      read(cost.cheapest, cost.error_cheapest, cost.seconds_cheapest);
+      read(cost.most_exact, cost.error_most_exact, cost.seconds_most_exact);
     }
   }
 
@@ -307,38 +365,51 @@ class Sweep {
   const Scene& scene_;
   const RenderRequest& request_;
   RenderSettings resolved_;
-  std::shared_ptr<const Image> studio_;  // where it is the light
+  std::shared_ptr<const Image> studio_;                        // where it is the light
   int largest_environment_ = std::numeric_limits<int>::max();  // texels that it is prepared with at most
   const ReportSettings& report_;
-  const Clock clock_;
-  ReferenceFilm reference_;
-  Image developed_reference_;
-  std::vector<Knob> knobs_;
+  const Clock& clock_;
+  const double start_;
+  std::unique_ptr<ReferenceRun> reference_;
+  double reference_began_ = 0.0;
+  const ReferenceFilm* reference_film_ = nullptr;
+  std::unique_ptr<FlipJudge> flip_;
+  std::vector<Knob> knobs_;  // that make a difference
   std::set<SettingsText> measured_;
-  std::size_t unmeasured_ = 0;  // points that were planned when the budget ended
+  double visits_seconds_ = 0.0;  // of the points so far, with all that is made of them
+  double round_seconds_ = 0.0;   // of a run of each point
+  bool late_ = false;            // there is no time for another point
+  std::size_t unmeasured_ = 0;   // points that were planned when the budget ended
   ErrorReport out_;
 };
 
 }  // namespace
 
-ErrorReport MeasureErrors(const std::filesystem::path& scene, const SettingsText& settings,
-                          const ReportSettings& report, const LoadOptions& load) {
-  if (!(report.budget_seconds >= 1.0 && report.budget_seconds <= 86400.0)) {
+ErrorReport MeasureErrorsBy(const Clock& clock, const std::filesystem::path& scene, const SettingsText& settings,
+                            const ReportSettings& report, const LoadOptions& load) {
+  const double start = clock();
+  if (!(report.budget_seconds >= 1.0 && report.budget_seconds <= kMostBudget)) {
     throw Error(ErrorCode::InvalidUsage, "a budget of " + std::to_string(report.budget_seconds) + " s",
                 "report settings", "1 to 86400 are accepted");
   }
+  RefuseUnlessPositive(report.bound);
   RenderRequest request;
   for (const auto& [option, value] : settings) SetOption(request, option, option, value);
   request.settings.threads = report.threads;
   ErrorReport out;
   RunWithThreads(report.threads, [&] {
     const RenderInputs inputs = LoadInputs(scene, request, load);
-    out = Sweep(inputs.loaded, request, inputs.settings, report).Run();
+    out = Sweep(clock, start, inputs.loaded, request, inputs.settings, report).Run();
     const std::vector<std::string>& of_loading = inputs.loaded.report.warnings;
     out.warnings.insert(out.warnings.begin(), of_loading.begin(), of_loading.end());
   });
   out.scene = scene.filename().string();
   return out;
+}
+
+ErrorReport MeasureErrors(const std::filesystem::path& scene, const SettingsText& settings,
+                          const ReportSettings& report, const LoadOptions& load) {
+  return MeasureErrorsBy(SteadySeconds, scene, settings, report, load);
 }
 
 }  // namespace facet

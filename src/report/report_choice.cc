@@ -7,6 +7,7 @@
 #include "base/printable.h"
 #include "facet/error.h"
 #include "facet/report.h"
+#include "report/measure_errors.h"
 #include "report/report_words.h"
 #include "report/short_number.h"
 
@@ -26,13 +27,17 @@ std::string Error4(double error) { return std::isnan(error) ? ErrorWords(error) 
 
 }  // namespace
 
+void RefuseUnlessPositive(const Bound& bound) {
+  RefuseUnlessPositive(bound.max_relative_rmse, "the largest relative error");
+  RefuseUnlessPositive(bound.max_seconds, "the longest time, in seconds,");
+}
+
 Choice ChoosePoint(const ErrorReport& report, const Bound& bound) {
   if (!bound.max_relative_rmse && !bound.max_seconds) {
     throw Error(ErrorCode::InvalidUsage, "there is nothing to choose by", {},
                 "give a largest error, a longest time or both");
   }
-  RefuseUnlessPositive(bound.max_relative_rmse, "the largest relative error");
-  RefuseUnlessPositive(bound.max_seconds, "the longest time, in seconds,");
+  RefuseUnlessPositive(bound);
   if (report.points.empty()) {
     throw Error(ErrorCode::InvalidInput, "the report has no points", Printable(report.scene),
                 "measure with a larger budget");
@@ -75,6 +80,10 @@ Choice ChoosePoint(const ErrorReport& report, const Bound& bound) {
     const std::string count = std::to_string(report.points.size());
     why = (count == "1" ? "the only point does not keep " : "none of " + count + " points keeps ") + bounds +
           "; takes the nearest, " + SettingsWords(best->changed) + ": " + values;
+    const double noise = report.reference.relative_error;
+    if (report.out_of_reach.empty() && max_error <= noise && best->error.relative_rmse < 2.0 * noise) {
+      why += "; the reference itself is off by " + Error4(noise) + ", by less in a larger budget";
+    }
   } else {
     why = "takes " + SettingsWords(best->changed) + ": ";
     if (bound.max_relative_rmse) why += "relative RMSE " + error + " is within " + Error4(max_error);

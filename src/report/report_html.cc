@@ -132,12 +132,18 @@ std::string ReferenceText(const ErrorReport& report) {
   const auto below = std::count_if(report.points.begin(), report.points.end(), [&](const ReportPoint& point) {
     return point.error.relative_rmse <= r.relative_error;
   });
+  const std::size_t all = std::size_t(report.width) * std::size_t(report.height);
   std::string html = "<p>The reference is computed in double with " + std::to_string(r.samples) +
                      " samples a pixel in each of " + Count(std::size_t(r.batches), "batch", "batches") + ", in " +
                      TimeWords(r.seconds) + ". It estimates its own remaining error as " +
                      ErrorWords(r.relative_error) + " (relative RMSE; RMSE " + ErrorWords(r.rms_error) +
                      "): points in the shaded band cannot be told apart. " +
                      (below == 0 ? "None is" : Count(std::size_t(below), "point is", "points are")) + " there.</p>\n";
+  if (r.pixels < all) {
+    html += "<p>There was time for " + Grouped(r.pixels) + " of the picture's " + Grouped(all) +
+            " pixels, in blocks spread evenly over it: all errors are over these, and the relative RMSE of the whole "
+            "picture is within about the ± given. A larger budget gives more of them.</p>\n";
+  }
   if (r.notes.empty()) return html;
   html += "<ul>\n";
   for (const std::string& note : r.notes) html += "<li>" + Escaped(note) + "</li>\n";
@@ -307,6 +313,11 @@ std::string Rounding(const ErrorReport& report) {
          Cell(ErrorWords(report.reference.relative_error)) + Cell("") + Cell("") + "</tr>\n</tbody>\n</table></div>\n";
 }
 
+// Of the relative RMSE, where it has some.
+std::string Uncertainty(const FilmError& error) {
+  return error.standard_error > 0.0 ? " ± " + ErrorWords(error.standard_error) : std::string();
+}
+
 std::string PointsTable(const ErrorReport& report, const std::vector<Ranked>& ranked) {
   std::string html =
       "<h2>All points</h2>\n<p>By error; ● marks the Pareto front of error and time. Errors are over all "
@@ -327,7 +338,7 @@ std::string PointsTable(const ErrorReport& report, const std::vector<Ranked>& ra
             (p.pareto ? "●" : "") + "</td><td class=\"settings\">" + settings + "</td>" + Cell(TimeWords(p.seconds)) +
             Cell(TimeWords(p.seconds_low)) + Cell(TimeWords(p.seconds_high)) + Cell(std::to_string(p.runs)) +
             Cell(p.peak_bytes == 0 ? "not known" : BytesWords(double(p.peak_bytes))) +
-            Cell(ErrorWords(p.error.relative_rmse)) + Cell(ErrorWords(p.error.rmse)) +
+            Cell(ErrorWords(p.error.relative_rmse) + Uncertainty(p.error)) + Cell(ErrorWords(p.error.rmse)) +
             Cell(ErrorWords(p.error.largest)) + Cell(ErrorWords(p.error.flip)) + "</tr>\n";
   }
   return html + "</tbody>\n</table></div>\n";

@@ -16,8 +16,11 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json ErrorAsJson(const FilmError& error) {
-  return {
-      {"rmse", error.rmse}, {"relative_rmse", error.relative_rmse}, {"largest", error.largest}, {"flip", error.flip}};
+  return {{"rmse", error.rmse},
+          {"relative_rmse", error.relative_rmse},
+          {"largest", error.largest},
+          {"flip", error.flip},
+          {"standard_error", error.standard_error}};
 }
 
 // A value of the file and where it stands.
@@ -33,6 +36,7 @@ struct Value {
   void Expect(bool good, const char* what) const {
     if (!good) Fail(std::string("is no ") + what);
   }
+  bool Has(const char* key) const { return json.contains(key); }
   Value operator[](const char* key) const {
     Expect(json.is_object(), "object");
     if (!json.contains(key)) Fail("has no " + Quoted(key));
@@ -68,6 +72,7 @@ struct Value {
     (*this)["relative_rmse"].Read(to.relative_rmse);
     (*this)["largest"].Read(to.largest);
     (*this)["flip"].Read(to.flip);
+    if (Has("standard_error")) (*this)["standard_error"].Read(to.standard_error);
   }
   void Read(SettingsText& to) const {
     Expect(json.is_object(), "object");
@@ -136,6 +141,7 @@ std::string ToJson(const ErrorReport& report) {
                {"reference",
                 {{"samples", reference.samples},
                  {"batches", reference.batches},
+                 {"pixels", reference.pixels},
                  {"seconds", reference.seconds},
                  {"rms_error", reference.rms_error},
                  {"relative_error", reference.relative_error},
@@ -192,6 +198,9 @@ ErrorReport ReportFromJson(const std::string& json, const std::string& name) {
   const Value reference = root["reference"];
   reference["samples"].Read(report.reference.samples);
   reference["batches"].Read(report.reference.batches);
+  // Reports had whole references once, and did not say so.
+  report.reference.pixels = std::size_t(report.width) * std::size_t(report.height);
+  if (reference.Has("pixels")) reference["pixels"].Read(report.reference.pixels);
   reference["seconds"].Read(report.reference.seconds);
   reference["rms_error"].Read(report.reference.rms_error);
   reference["relative_error"].Read(report.reference.relative_error);
@@ -209,7 +218,7 @@ std::string ToCsv(const ErrorReport& report) {
   }
   std::string csv;
   for (const std::string& option : varied) csv += CsvField(option) + ",";
-  csv += "runs,seconds,seconds_low,seconds_high,peak_bytes,rmse,relative_rmse,largest,flip,pareto\r\n";
+  csv += "runs,seconds,seconds_low,seconds_high,peak_bytes,rmse,relative_rmse,largest,flip,standard_error,pareto\r\n";
   for (const ReportPoint& point : report.points) {
     for (const std::string& option : varied) {
       const auto changed = point.changed.find(option), asked = report.settings.find(option);
@@ -224,7 +233,8 @@ std::string ToCsv(const ErrorReport& report) {
     for (const double seconds : {point.seconds, point.seconds_low, point.seconds_high}) csv += CsvNumber(seconds) + ",";
     csv += std::to_string(point.peak_bytes) + ",";
     const FilmError& e = point.error;
-    for (const double error : {e.rmse, e.relative_rmse, e.largest, e.flip}) csv += CsvNumber(error) + ",";
+    for (const double error : {e.rmse, e.relative_rmse, e.largest, e.flip, e.standard_error})
+      csv += CsvNumber(error) + ",";
     csv += point.pareto ? "yes\r\n" : "no\r\n";
   }
   return csv;

@@ -4,8 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstring>
+#include <limits>
+#include <memory>
 
 #include "facet/error.h"
 #include "render/hand_built.h"
@@ -225,36 +228,105 @@ TEST(Reference, TheSameBitsOnAnyNumberOfThreads) {
   EXPECT_FALSE(SameBits(one, RenderReference(scene, settings, other)));
 }
 
+// A clock that goes on by so many seconds whenever somebody looks at it.
+Clock TickingClock(double tick_seconds) {
+  return [tick_seconds, looks = std::make_shared<std::atomic<int>>(0)] { return tick_seconds * (*looks)++; };
+}
+
 TEST(Reference, StopsWhereItIsTold) {
   const Scene scene = Balls();
   ReferenceSettings effort = Effort(4, 1, 40);
+  effort.clock = TickingClock(1.0);
   effort.time_budget = 0.0;
   EXPECT_EQ(RenderReference(scene, BallSettings(4), effort).batches, 2);
+  effort.time_budget = 30.0;
+  const int batches = RenderReference(scene, BallSettings(4), effort).batches;
+  EXPECT_GT(batches, 2);
+  EXPECT_LT(batches, 30);
   effort.time_budget = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(RenderReference(scene, BallSettings(4), effort).batches, 40);
   effort.target_error = 0.1;
   int calls = 0;
   RenderSettings settings = BallSettings(8);
-  settings.progress = [&](double) { ++calls; };
+  settings.progress = [&](double share) {
+    EXPECT_GT(share, 0.0);
+    EXPECT_LE(share, 1.0);
+    ++calls;
+  };
   const ReferenceFilm film = RenderReference(scene, settings, effort);
   EXPECT_LT(film.batches, 40);
   EXPECT_GE(film.batches, 4);
-  EXPECT_EQ(calls, film.batches);
+  EXPECT_GE(calls, film.batches - 1);  // the first two are made together
   EXPECT_LE(film.relative_error, 0.1);
   EXPECT_GT(film.relative_error, 0.0);
 }
 
-TEST(Reference, GivesUpWhereTwoBatchesTakeTooLong) {
-  ReferenceSettings effort = Effort(4, 1, 3);
-  effort.give_up_after = 0.0;
-  try {
-    RenderReference(Balls(), BallSettings(8), effort);
-    ADD_FAILURE() << "did not throw";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ErrorCode::InvalidUsage);
-    EXPECT_EQ(error.message(), "a reference of 8 x 8 pixels is not done in the time there is");
+// What there is no time for is left out; what is there is as it would be with all the time there is.
+TEST(Reference, HasAPartOfThePictureWhereThereIsNoTimeForAllOfIt) {
+  const Scene scene = Balls();
+  const RenderSettings settings = BallSettings(200);  // 169 blocks, most of them with light in them
+  ReferenceSettings effort = Effort(1, 1, 2);
+  const ReferenceFilm all = RenderReference(scene, settings, effort);
+  EXPECT_TRUE(all.whole);
+  EXPECT_EQ(all.known_pixels, 40000u);
+  EXPECT_EQ(all.blocks.size(), 169u);
+  std::size_t before = 0;
+  for (const double budget : {0.0, 60.0, 100.0}) {
+    effort.clock = TickingClock(1.0);
+    effort.time_budget = budget;
+    const ReferenceFilm part = RenderReference(scene, settings, effort);
+    EXPECT_FALSE(part.whole);
+    EXPECT_EQ(part.batches, 2);
+    EXPECT_GT(part.blocks.size(), before);
+    EXPECT_LT(part.blocks.size(), all.blocks.size());
+    before = part.blocks.size();
+    std::vector<bool> known(part.pixels.size(), false);
+    for (const PixelBlock& block : part.blocks) {
+      for (int y = block.y; y < block.y + block.height; ++y) {
+        for (int x = block.x; x < block.x + block.width; ++x) known[std::size_t(y * 200 + x)] = true;
+      }
+    }
+    EXPECT_EQ(std::size_t(std::count(known.begin(), known.end(), true)), part.known_pixels);
+    double error2 = 0.0, light2 = 0.0;
+    for (std::size_t i = 0; i < known.size(); ++i) {
+      EXPECT_EQ(part.pixels[i], known[i] ? all.pixels[i] : glm::dvec4(0.0));
+      EXPECT_EQ(part.standard_error[i], known[i] ? all.standard_error[i] : glm::dvec4(0.0));
+      const glm::dvec3 error(part.standard_error[i]), light(part.pixels[i]);
+      error2 += glm::dot(error, error);
+      light2 += glm::dot(light, light);
+    }
+    EXPECT_NEAR(part.rms_error, std::sqrt(error2 / (3.0 * double(part.known_pixels))), 1e-12);
+    EXPECT_NEAR(part.relative_error, std::sqrt(error2 / light2), 1e-12);
   }
-  effort.give_up_after = std::numeric_limits<double>::infinity();
-  EXPECT_EQ(RenderReference(Balls(), BallSettings(8), effort).batches, 3);
+}
+
+// A few blocks with light in them are made however late it is: without any there would be nothing to compare with.
+TEST(Reference, LooksForLightHoweverLateItIs) {
+  Scene scene;
+  Add(scene, Sphere(0.25f, 12, 24), AddMaterial(scene, Unlit({0.5f, 0.5f, 0.5f, 1.0f})));
+  RenderSettings settings = Settings(160, 160, 1, Orthographic(1.0));  // 100 blocks, 12 or 16 of them touched
+  ReferenceSettings effort = Effort(1, 1, 2);
+  effort.time_budget = 0.0;
+  double light = 0.0;
+  for (const glm::dvec4& pixel : RenderReference(scene, settings, effort).pixels) light += pixel.x;
+  EXPECT_GT(light, 0.0);
+}
+
+TEST(Reference, GoesOnWhereItStopped) {
+  const Scene scene = Balls();
+  ReferenceSettings effort = Effort(2, 1, 6);
+  const ReferenceFilm at_once = RenderReference(scene, BallSettings(100), effort);
+  effort.clock = TickingClock(1.0);
+  ReferenceRun run(scene, BallSettings(100), effort);
+  const std::size_t first = run.Continue(0.0).known_pixels;
+  EXPECT_LT(first, 10000u);
+  const double noise = run.Continue(0.0).relative_error;
+  EXPECT_EQ(run.Continue(0.0).known_pixels, first);
+  EXPECT_GT(run.Continue(25.0).known_pixels, first);
+  // Half of the noise takes four times as many batches.
+  EXPECT_NEAR(run.SecondsFor(0.25 * noise) / run.SecondsFor(0.5 * noise), 4.0, 1.0);
+  EXPECT_LE(run.SecondsFor(2.0 * noise), 60.0) << "there is that already";
+  EXPECT_TRUE(SameBits(run.Continue(std::numeric_limits<double>::infinity()), at_once));
 }
 
 TEST(Reference, RefusesWhatIsOutOfRange) {

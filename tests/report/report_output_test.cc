@@ -267,6 +267,18 @@ TEST(ErrorReportPage, SaysWhatCannotBeDrawnAndStaysWhole) {
   ExpectXml(ToHtml(ErrorReport()), "assert len(list(t.iter(\"svg\"))) == 3");  // no points at all
 }
 
+TEST(ErrorReportPage, SaysHowMuchOfThePictureWasCompared) {
+  ErrorReport report = SampleErrorReport();
+  EXPECT_FALSE(Contains(ToHtml(report), "There was time for"));
+  EXPECT_FALSE(Contains(ToHtml(report), " ± "));
+  report.reference.pixels = 51200;
+  report.points[0].error.standard_error = 0.00042;
+  const std::string html = ToHtml(report);
+  EXPECT_TRUE(Contains(html, "There was time for 51,200 of the picture's 153,600 pixels"));
+  EXPECT_TRUE(Contains(html, ">0.0061 ± 0.00042<"));
+  ExpectXml(html, "assert True");
+}
+
 TEST(ErrorReportPage, TellsRoundingFromApproximation) {
   ErrorReport report = SampleErrorReport();
   report.points[0].error.relative_rmse = 0.0042;
@@ -282,13 +294,15 @@ void ExpectEqual(const FilmError& a, const FilmError& b) {
   EXPECT_EQ(a.relative_rmse, b.relative_rmse);
   EXPECT_EQ(a.largest, b.largest);
   EXPECT_EQ(a.flip, b.flip);
+  EXPECT_EQ(a.standard_error, b.standard_error);
 }
 
 TEST(ErrorReportJson, ReadsBackAsItWas) {
   ErrorReport report = SampleErrorReport();
   report.points[1].seconds = 5e-324;
   report.points[1].seconds_high = std::numeric_limits<double>::max();
-  report.points[1].error = {1.0 / 3.0, 0.1, std::nextafter(1.0, 2.0), 2.2250738585072014e-308};
+  report.points[1].error = {1.0 / 3.0, 0.1, std::nextafter(1.0, 2.0), 2.2250738585072014e-308, 0.01};
+  report.reference.pixels = 1234;
   report.points[1].peak_bytes = std::numeric_limits<std::size_t>::max();
   report.points[2].changed = {{"a\"b\\\n", "é\x01"}};
   report.points[2].error.relative_rmse = kInfinity;
@@ -302,6 +316,7 @@ TEST(ErrorReportJson, ReadsBackAsItWas) {
   EXPECT_EQ(read.settings, report.settings);
   EXPECT_EQ(read.reference.samples, 256);
   EXPECT_EQ(read.reference.batches, 8);
+  EXPECT_EQ(read.reference.pixels, 1234u);
   EXPECT_EQ(read.reference.seconds, report.reference.seconds);
   EXPECT_EQ(read.reference.rms_error, report.reference.rms_error);
   EXPECT_EQ(read.reference.relative_error, report.reference.relative_error);
@@ -335,6 +350,19 @@ TEST(ErrorReportJson, ReadsBackAsItWas) {
   EXPECT_EQ(read.costs[1].change, 0.0057);
 }
 
+// Those of earlier versions, whose references were always whole.
+TEST(ErrorReportJson, ReadsReportsThatDoNotSayWhatTheirReferenceHas) {
+  std::string json = ToJson(SampleErrorReport());
+  for (const std::string key : {"pixels", "standard_error"}) {
+    json = std::regex_replace(json, std::regex(",\\s*\"" + key + "\": [0-9.]+"), "");
+    EXPECT_FALSE(Contains(json, key));
+  }
+  const ErrorReport read = ReportFromJson(json, "stored.json");
+  EXPECT_EQ(read.reference.pixels, 480u * 320u);
+  EXPECT_EQ(read.points[0].error.standard_error, 0.0);
+  EXPECT_EQ(read.points[0].error.flip, SampleErrorReport().points[0].error.flip);
+}
+
 TEST(ErrorReportJson, NamesThePlaceThatIsWrong) {
   const std::string good = ToJson(SampleErrorReport());
   const auto with = [&](const std::string& from, const std::string& to) {
@@ -366,17 +394,20 @@ TEST(ErrorReportCsv, HasALinePerPointAndAColumnPerVariedOption) {
   ErrorReport report = SampleErrorReport();
   report.points.resize(3);
   report.points[1].changed = {{"samples", "1"}, {"target", "0,\"1\",2"}};
+  report.points[1].error.standard_error = 0.004;
   report.points[2].error.relative_rmse = kInfinity;
   for (ReportPoint& point : report.points) {
     point.seconds_low = 0.5 * point.seconds;
     point.seconds_high = 2.0 * point.seconds;
   }
   report.points[2].seconds = 0.1;
-  EXPECT_EQ(ToCsv(report),
-            "samples,target,runs,seconds,seconds_low,seconds_high,peak_bytes,rmse,relative_rmse,largest,flip,pareto\r\n"
-            "4,,5,0.062,0.031,0.124,92278784,0.001525,0.0061,0.1952,0.00305,yes\r\n"
-            "1,\"0,\"\"1\"\",2\",5,0.021,0.0105,0.042,63967232,0.01025,0.041,1.312,0.0205,no\r\n"
-            "2,,5,0.1,0.018,0.072,73404416,0.0038,,0.4864,0.0076,yes\r\n");
+  EXPECT_EQ(
+      ToCsv(report),
+      "samples,target,runs,seconds,seconds_low,seconds_high,peak_bytes,rmse,relative_rmse,largest,flip,standard_error,"
+      "pareto\r\n"
+      "4,,5,0.062,0.031,0.124,92278784,0.001525,0.0061,0.1952,0.00305,0,yes\r\n"
+      "1,\"0,\"\"1\"\",2\",5,0.021,0.0105,0.042,63967232,0.01025,0.041,1.312,0.0205,0.004,no\r\n"
+      "2,,5,0.1,0.018,0.072,73404416,0.0038,,0.4864,0.0076,0,yes\r\n");
 }
 
 TEST(WordsForNumbers, HaveThreeDigitsAndAUnit) {
@@ -449,6 +480,13 @@ TEST(ChosenPoint, IsTheNearestWhereNoneIsWithin) {
   EXPECT_FALSE(by_error.kept);
   EXPECT_EQ(by_error.why,
             "none of 5 points keeps relative RMSE 0.0001; takes the nearest, samples=4: relative RMSE 0.001");
+  ErrorReport coarse = report;
+  coarse.reference.relative_error = 0.0007;
+  EXPECT_EQ(ChoosePoint(coarse, {0.0005, {}}).why,
+            "none of 5 points keeps relative RMSE 0.0005; takes the nearest, samples=4: relative RMSE 0.001; the "
+            "reference itself is off by 0.0007, by less in a larger budget");
+  EXPECT_EQ(ChoosePoint(coarse, {0.0008, {}}).why,
+            "none of 5 points keeps relative RMSE 0.0008; takes the nearest, samples=4: relative RMSE 0.001");
   const Choice by_time = ChoosePoint(report, {{}, 0.01});
   EXPECT_EQ(by_time.point, 2u);
   EXPECT_FALSE(by_time.kept);

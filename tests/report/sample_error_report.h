@@ -15,7 +15,7 @@ inline ReportPoint SamplePoint(SettingsText changed, double ms, double relative,
   point.seconds_low = 0.93 * point.seconds;
   point.seconds_high = 1.17 * point.seconds;
   point.peak_bytes = mib * 1048576 + 4096;
-  point.error = {0.25 * relative, relative, 32.0 * relative, 0.5 * relative};
+  point.error = {0.25 * relative, relative, 32.0 * relative, 0.5 * relative, 0.0};
   point.pareto = pareto;
   return point;
 }
@@ -30,8 +30,9 @@ inline ErrorReport SampleErrorReport() {
   report.height = 320;
   report.settings = {
       {"samples", "4"}, {"max-anisotropy", "8"}, {"prefilter-size", "256"}, {"texels", "half"}, {"size", "480x320"}};
-  report.reference = {256, 8, 31.5, 0.00009, 0.0004, {"textures without mips", "2 texels < 0 were set to 0"}};
-  report.rounding = FilmError{1.1e-7, 4.2e-7, 3e-5, 1e-8};
+  report.reference = {
+      256, 8, 480 * 320, 31.5, 0.00009, 0.0004, {"textures without mips", "2 texels < 0 were set to 0"}};
+  report.rounding = FilmError{1.1e-7, 4.2e-7, 3e-5, 1e-8, 0.0};
   report.points = {
       SamplePoint({}, 62, 0.0061, 88, true),
       SamplePoint({{"samples", "1"}}, 21, 0.041, 61, false),

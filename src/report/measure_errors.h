@@ -1,0 +1,17 @@
+// MeasureErrors() of facet/report.h by another clock than the machine's.
+#pragma once
+
+#include <filesystem>
+
+#include "base/clock.h"
+#include "facet/report.h"
+
+namespace facet {
+
+ErrorReport MeasureErrorsBy(const Clock& clock, const std::filesystem::path& scene, const SettingsText& settings,
+                            const ReportSettings& report, const LoadOptions& load = {});
+
+// Throws Error(InvalidUsage) for a bound that is no finite number above 0.
+void RefuseUnlessPositive(const Bound& bound);
+
+}  // namespace facet
