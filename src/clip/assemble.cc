@@ -67,7 +67,7 @@ class Assembler {
     const int count = ClipPolygon(view_, c0 | c1 | c2, polygon, 3);
     Corner screen[kMaxClipVertices + 1];
     for (int i = 0; i < count; ++i) screen[i] = Project(polygon[i], v);
-    for (int i = 2; i < count; ++i) Emit(screen[0], screen[i - 1], screen[i], primitive, RecordKind::Triangle);
+    for (int i = 2; i < count; ++i) Emit(screen[0], screen[i - 1], screen[i], primitive, RecordKind::Triangle, true);
   }
 
   // A line is the rectangle one pixel wide around it (Vulkan 1.3 specification, "Rectangular Line Segments").
@@ -76,7 +76,8 @@ class Assembler {
     const std::int32_t c0 = Code(v[0]), c1 = Code(v[1]);
     if (Rejected(c0, c1, c1)) return;
     ClipVertex ends[2] = {{Homogeneous(v[0]), 0}, {Homogeneous(v[1]), 1}};
-    if (((c0 | c1) & kOutClip) != 0) {
+    const bool clipped = ((c0 | c1) & kOutClip) != 0;
+    if (clipped) {
       ++chunk_.clipped;
       if (ClipLine(view_, c0 | c1, ends) == 0) return;
     }
@@ -87,7 +88,7 @@ class Assembler {
     const glm::dvec2 across = glm::dvec2(-along.y, along.x) * (0.5 / length);
     const double depth_a = Depth(ends[0].position), depth_b = Depth(ends[1].position);
     Quad({At(a - across, depth_a), At(b - across, depth_b), At(b + across, depth_b), At(a + across, depth_a)},
-         primitive, RecordKind::Line);
+         primitive, RecordKind::Line, clipped);
   }
 
   // A point is the square of one pixel around it.
@@ -153,12 +154,12 @@ class Assembler {
   }
 
   // Half a pixel wide on each side: whether it is seen from the front does not matter.
-  void Quad(const std::array<Corner, 4>& q, std::uint32_t primitive, RecordKind kind) {
-    Emit(q[0], q[1], q[2], primitive, kind);
-    Emit(q[0], q[2], q[3], primitive, kind);
+  void Quad(const std::array<Corner, 4>& q, std::uint32_t primitive, RecordKind kind, bool clipped = false) {
+    Emit(q[0], q[1], q[2], primitive, kind, clipped);
+    Emit(q[0], q[2], q[3], primitive, kind, clipped);
   }
 
-  void Emit(Corner a, Corner b, Corner c, std::uint32_t primitive, RecordKind kind) {
+  void Emit(Corner a, Corner b, Corner c, std::uint32_t primitive, RecordKind kind, bool clipped = false) {
     std::int64_t area = std::int64_t{b.x_fx8 - a.x_fx8} * (c.y_fx8 - a.y_fx8) -
                         std::int64_t{c.x_fx8 - a.x_fx8} * (b.y_fx8 - a.y_fx8);
     // glTF's front faces run counter-clockwise; with y down that is a negative area.
@@ -184,6 +185,7 @@ class Assembler {
     r.primitive = primitive;
     r.kind = kind;
     r.back_facing = back;
+    r.clipped = clipped;
     r.covered = coverage.covered;
   }
 
