@@ -16,7 +16,12 @@ struct Corner {
   double depth;
 };
 
-std::int32_t Snap(double pixels) { return static_cast<std::int32_t>(std::nearbyint(pixels * kSubpixelScale)); }
+// `size`: the picture's, along that axis. Nothing is left beyond the guard band but half a line's width, and what
+// rounding leaves there at distances of next to nothing.
+std::int32_t Snap(double pixels, int size) {
+  const double middle = size * 0.5, reach = kGuardBand + 1.0;
+  return static_cast<std::int32_t>(std::nearbyint(std::clamp(pixels, middle - reach, middle + reach) * kSubpixelScale));
+}
 
 class Assembler {
  public:
@@ -144,7 +149,9 @@ class Assembler {
   }
   double Depth(const glm::dvec3& h) const { return view_.perspective ? 1.0 / h.z : -h.z; }
 
-  Corner At(const glm::dvec2& pixel, double depth) const { return {Snap(pixel.x), Snap(pixel.y), depth}; }
+  Corner At(const glm::dvec2& pixel, double depth) const {
+    return {Snap(pixel.x, view_.width), Snap(pixel.y, view_.height), depth};
+  }
 
   // A vertex that the clipper did not touch keeps the place that the vertex stage gave it: the neighbours that were not
   // clipped have it there. Where that stage found it outside, it gave it none, and no neighbour has one either.
@@ -177,8 +184,8 @@ class Assembler {
     const double x1 = b.x_fx8 - a.x_fx8, y1 = b.y_fx8 - a.y_fx8, x2 = c.x_fx8 - a.x_fx8, y2 = c.y_fx8 - a.y_fx8;
     const double z1 = b.depth - a.depth, z2 = c.depth - a.depth;
     r.depth_0 = a.depth;
-    r.depth_dx = (z1 * y2 - z2 * y1) * scale;
-    r.depth_dy = (z2 * x1 - z1 * x2) * scale;
+    r.depth_dx = std::clamp((z1 * y2 - z2 * y1) * scale, -kSteepestDepth, kSteepestDepth);
+    r.depth_dy = std::clamp((z2 * x1 - z1 * x2) * scale, -kSteepestDepth, kSteepestDepth);
     r.depth_min = static_cast<float>(std::min({a.depth, b.depth, c.depth}));
     r.depth_max = static_cast<float>(std::max({a.depth, b.depth, c.depth}));
     r.drawable = chunk_.drawable;

@@ -2,14 +2,13 @@
 #include <cmath>
 
 #include "gltf/nodes.h"
+#include "math/round_to_float.h"
 
 namespace facet::gltf {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kHalfPi = kPi / 2.0;
-
-float ToFloat(double value) { return static_cast<float>(std::min(value, 3.4e38)); }
 
 void ReadSpotCone(Context& context, const Json& object, Light& light, const Place& place) {
   const Json* spot = ObjectAt(object, "spot", place);
@@ -47,13 +46,13 @@ Light ReadLight(Context& context, const Json& object, const Place& place) {
   }
   const auto color = NumbersAt(object, "color", 3, place);
   for (std::size_t c = 0; c < color.size(); ++c) {
-    light.color[static_cast<int>(c)] = ToFloat(std::max(color[c], 0.0));
+    light.color[static_cast<int>(c)] = RoundToFiniteFloat(std::max(color[c], 0.0));
   }
-  light.intensity = ToFloat(std::max(NumberAt(object, "intensity", place).value_or(1.0), 0.0));
+  light.intensity = RoundToFiniteFloat(std::max(NumberAt(object, "intensity", place).value_or(1.0), 0.0));
   if (!known) light.intensity = 0.0f;
   if (const auto range = NumberAt(object, "range", place)) {
     if (*range > 0.0) {
-      light.range = ToFloat(*range);
+      light.range = RoundToFiniteFloat(*range);
     } else {
       context.Warn(Place(place, "range"), "ignored: is not positive");
     }

@@ -10,6 +10,7 @@
 #include "gltf/nodes.h"
 #include "gltf/pictures.h"
 #include "gltf/primitive.h"
+#include "math/round_to_float.h"
 
 namespace facet {
 namespace gltf {
@@ -50,7 +51,7 @@ void ReadMeshes(Context& context, BufferStore& buffers, AccessorReader& reader, 
       context.Warn(place, "its primitives do not have the same number of morph targets");
       primitive.targets.resize(most_targets);
     }
-    for (const double weight : from.weights) mesh.weights.push_back(static_cast<float>(weight));
+    for (const double weight : from.weights) mesh.weights.push_back(RoundToFiniteFloat(weight));
     if (!mesh.weights.empty() && mesh.weights.size() != most_targets) {
       context.Warn(Place(place, "weights"), "has " + std::to_string(mesh.weights.size()) + " numbers for " +
                                                 std::to_string(most_targets) + " morph targets");

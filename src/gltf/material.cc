@@ -4,13 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include "math/round_to_float.h"
+
 namespace facet::gltf {
 namespace {
-
-float ToFloat(double value) {
-  constexpr double kLargest = std::numeric_limits<float>::max();
-  return static_cast<float>(std::min(std::max(value, -kLargest), kLargest));
-}
 
 class MaterialReader {
  public:
@@ -34,7 +31,7 @@ class MaterialReader {
       out.metallic_roughness_texture = Ref(*pbr_object, "metallicRoughnessTexture", pbr_place);
     }
     out.normal_texture = Ref(object_, "normalTexture", place_);
-    out.normal_scale = ToFloat(from.normalTexture.scale);
+    out.normal_scale = RoundToFiniteFloat(from.normalTexture.scale);
     out.occlusion_texture = Ref(object_, "occlusionTexture", place_);
     out.occlusion_strength = Clamp(from.occlusionTexture.strength, 1.0, Place(place_, "occlusionTexture"));
     out.emissive_texture = Ref(object_, "emissiveTexture", place_);
@@ -68,7 +65,7 @@ class MaterialReader {
   float Clamp(double value, double high, const Place& where) {
     const double clamped = std::min(std::max(value, 0.0), high);
     if (clamped != value) context_.Warn(where, "a number outside of its range was clamped");
-    return ToFloat(clamped);
+    return RoundToFiniteFloat(clamped);
   }
 
   static TextureRef Ref(const Json& object, const char* key, const Place& place) {
@@ -85,9 +82,9 @@ class MaterialReader {
     const Place transform_place(extensions_place, kTransform);
     const auto offset = NumbersAt(*transform, "offset", 2, transform_place);
     const auto scale = NumbersAt(*transform, "scale", 2, transform_place);
-    if (!offset.empty()) ref.offset = {ToFloat(offset[0]), ToFloat(offset[1])};
-    if (!scale.empty()) ref.scale = {ToFloat(scale[0]), ToFloat(scale[1])};
-    ref.rotation = ToFloat(NumberAt(*transform, "rotation", transform_place).value_or(0.0));
+    if (!offset.empty()) ref.offset = {RoundToFiniteFloat(offset[0]), RoundToFiniteFloat(offset[1])};
+    if (!scale.empty()) ref.scale = {RoundToFiniteFloat(scale[0]), RoundToFiniteFloat(scale[1])};
+    ref.rotation = RoundToFiniteFloat(NumberAt(*transform, "rotation", transform_place).value_or(0.0));
     if (const auto tex_coord = SizeAt(*transform, "texCoord", transform_place)) {
       if (*tex_coord > 0xFFFF) Fail(Place(transform_place, "texCoord"), "is absurdly large");
       ref.tex_coord = static_cast<int>(*tex_coord);

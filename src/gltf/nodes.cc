@@ -4,6 +4,8 @@
 #include <glm/gtc/type_ptr.hpp>
 #include <limits>
 
+#include "math/round_to_float.h"
+
 namespace facet::gltf {
 namespace {
 
@@ -136,7 +138,7 @@ Node ReadNode(Context& context, AccessorReader& reader, Scene& scene, std::vecto
   node.skin = from.skin;
   node.camera = from.camera;
   ReadTransform(context, from, node, place);
-  for (const double weight : from.weights) node.weights.push_back(static_cast<float>(weight));
+  for (const double weight : from.weights) node.weights.push_back(RoundToFiniteFloat(weight));
   if (!node.weights.empty()) {
     const std::size_t targets = node.mesh >= 0 ? TargetCount(scene.meshes[static_cast<std::size_t>(node.mesh)]) : 0;
     if (node.weights.size() != targets) {
