@@ -240,8 +240,21 @@ class TileWorker final : public RecordTable {
     lighting_.light_count = static_cast<int>(reaching_.size());
   }
 
-  // Shades the fragments that batch_ names.
+  // Shades the fragments that batch_ names; some at a time, as the numbers of their setups are counted in 32 bits.
   void ShadeBatch(const FrameMaterial& material, ShadedFragments& fragments, bool alpha_only) {
+    constexpr std::size_t kMost = std::size_t{1} << 20;
+    static_assert(kMost * SetupLayout::kStride <= INT32_MAX);
+    if (batch_.size() <= kMost) return ShadeSome(material, fragments, alpha_only);
+    const std::vector<std::uint32_t> whole = batch_;
+    for (auto from = whole.begin(); from != whole.end();) {
+      const auto to = from + std::min<std::ptrdiff_t>(kMost, whole.end() - from);
+      batch_.assign(from, to);
+      ShadeSome(material, fragments, alpha_only);
+      from = to;
+    }
+  }
+
+  void ShadeSome(const FrameMaterial& material, ShadedFragments& fragments, bool alpha_only) {
     const std::size_t n = batch_.size();
     const std::size_t padded = (n + kTaskPadding - 1) / kTaskPadding * kTaskPadding;
     if (n == 0) return;
