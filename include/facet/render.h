@@ -58,7 +58,7 @@ using CameraChoice = std::variant<AutoCamera, OrbitCamera, SceneCamera, FreeCame
 struct EnvironmentSettings {
   enum class Kind : std::uint8_t { Studio, None, Image };
   Kind kind = Kind::Studio;
-  std::shared_ptr<const Image> image;  // Kind::Image: 3 or 4 channels, any type
+  std::shared_ptr<const Image> image;  // Kind::Image: any type; 32768 pixels a side and 2^28 in all at most
   std::shared_ptr<const EnvironmentSource> source;  // Kind::Image where `image` is null: a file
   double rotation = 0.0;               // radians about +Y, counter-clockwise seen from above
   double intensity = 1.0;

@@ -57,20 +57,20 @@ enum class AlphaMode : std::uint8_t { Opaque, Mask, Blend };
 
 struct Material {
   std::string name;
-  glm::vec4 base_color_factor{1.0f};  // linear, straight alpha
+  glm::vec4 base_color_factor{1.0f};  // linear, straight alpha, [0, 1]
   TextureRef base_color_texture;      // sRGB
-  float metallic_factor = 1.0f;
-  float roughness_factor = 1.0f;         // perceptual roughness
+  float metallic_factor = 1.0f;           // [0, 1]
+  float roughness_factor = 1.0f;          // perceptual roughness, [0, 1]
   TextureRef metallic_roughness_texture;  // G roughness, B metalness
   TextureRef normal_texture;              // tangent space, +Y up
-  float normal_scale = 1.0f;
+  float normal_scale = 1.0f;              // of any sign
   TextureRef occlusion_texture;  // R
-  float occlusion_strength = 1.0f;
-  glm::vec3 emissive_factor{0.0f};  // linear
+  float occlusion_strength = 1.0f;  // [0, 1]
+  glm::vec3 emissive_factor{0.0f};  // linear, 0 or more
   TextureRef emissive_texture;      // sRGB
-  float emissive_strength = 1.0f;   // KHR_materials_emissive_strength
+  float emissive_strength = 1.0f;   // KHR_materials_emissive_strength, 0 or more
   AlphaMode alpha_mode = AlphaMode::Opaque;
-  float alpha_cutoff = 0.5f;
+  float alpha_cutoff = 0.5f;        // 0 or more
   bool double_sided = false;
   bool unlit = false;  // KHR_materials_unlit
 };
@@ -86,7 +86,8 @@ struct MorphTarget {
   std::vector<glm::vec4> colors;
 };
 
-// Geometry with one material. Every non-empty attribute array has positions.size() entries.
+// Geometry with one material. Every non-empty attribute array has positions.size() entries. Their numbers may be
+// anything: what is not finite or has no direction is replaced or left out, see docs/conventions.md.
 struct Primitive {
   Topology topology = Topology::Triangles;
   std::vector<glm::vec3> positions;  // mesh space
@@ -96,7 +97,9 @@ struct Primitive {
   std::vector<glm::vec4> colors;                   // linear RGBA, straight alpha
   std::vector<std::vector<glm::u16vec4>> joints;   // JOINTS_n: indices into Skin::joints
   std::vector<std::vector<glm::vec4>> weights;     // WEIGHTS_n
-  std::vector<std::uint32_t> indices;              // empty: 0, 1, 2 ...; every value < positions.size()
+  // Every value < positions.size(); a multiple of 3 for Triangles, of 2 for Lines. Empty: 0, 1, 2 ... as far as they make
+  // whole triangles or lines.
+  std::vector<std::uint32_t> indices;
   std::vector<MorphTarget> targets;
   int material = -1;                   // -1: glTF's default material
   std::vector<int> variant_materials;  // by index of Scene::variants; empty, or -1 where the variant leaves it alone
@@ -132,16 +135,16 @@ enum class LightType : std::uint8_t { Directional, Point, Spot };
 struct Light {
   std::string name;
   LightType type = LightType::Point;
-  glm::vec3 color{1.0f};   // linear
-  float intensity = 1.0f;  // lux for directional, candela for point and spot
-  float range = std::numeric_limits<float>::infinity();
-  float inner_cone_angle = 0.0f;
-  float outer_cone_angle = 0.7853981634f;
+  glm::vec3 color{1.0f};   // linear, 0 or more
+  float intensity = 1.0f;  // lux for directional, candela for point and spot; 0 or more
+  float range = std::numeric_limits<float>::infinity();  // positive; infinity: unlimited
+  float inner_cone_angle = 0.0f;           // from the axis, 0 to the outer one
+  float outer_cone_angle = 0.7853981634f;  // 0 to pi
 };
 
 struct Transform {
   glm::dvec3 translation{0.0};
-  glm::dquat rotation{1.0, 0.0, 0.0, 0.0};  // w, x, y, z
+  glm::dquat rotation{1.0, 0.0, 0.0, 0.0};  // w, x, y, z; of any length but 0
   glm::dvec3 scale{1.0};
 };
 
@@ -149,7 +152,7 @@ struct Node {
   std::string name;
   std::vector<int> children;
   Transform transform;
-  std::optional<glm::dmat4> matrix;  // instead of `transform`, when the file gives one
+  std::optional<glm::dmat4> matrix;  // instead of `transform`, when the file gives one; affine
   int mesh = -1, skin = -1, camera = -1, light = -1;
   std::vector<float> weights;        // morph weights; empty: the mesh's
   bool visible = true;               // KHR_node_visibility; inherited; cameras are never hidden
@@ -185,7 +188,8 @@ struct SceneRoots {
   std::vector<int> nodes;  // with all that is below them. One that has a parent stands as if it had none
 };
 
-// Every index in it is valid or -1, and the node hierarchy is a forest: loaders guarantee it, ValidateScene checks it.
+// Every index in it is valid or -1, every parameter finite and in the range that stands beside it, and the node hierarchy
+// is a forest: loaders guarantee it, ValidateScene checks it.
 struct Scene {
   std::vector<SceneImage> images;
   std::vector<Texture> textures;
@@ -201,7 +205,8 @@ struct Scene {
   std::vector<std::string> variants;  // KHR_materials_variants
 };
 
-// Throws Error(InvalidInput) naming the first index, size or cycle that breaks the rules above.
+// Throws Error(InvalidInput) naming the first index, size, number or cycle that breaks the rules above. Render() and all
+// that draws or measures a scene call it.
 void ValidateScene(const Scene& scene);
 
 }  // namespace facet

@@ -16,7 +16,12 @@ struct Corner {
   double depth;
 };
 
-std::int32_t Snap(double pixels) { return static_cast<std::int32_t>(std::nearbyint(pixels * kSubpixelScale)); }
+// `size`: the picture's, along that axis. Nothing is left beyond the guard band but half a line's width, and what
+// rounding leaves there at distances of next to nothing.
+std::int32_t Snap(double pixels, int size) {
+  const double middle = size * 0.5, reach = kGuardBand + 1.0;
+  return static_cast<std::int32_t>(std::nearbyint(std::clamp(pixels, middle - reach, middle + reach) * kSubpixelScale));
+}
 
 class Assembler {
  public:
@@ -67,7 +72,7 @@ class Assembler {
     const int count = ClipPolygon(view_, c0 | c1 | c2, polygon, 3);
     Corner screen[kMaxClipVertices + 1];
     for (int i = 0; i < count; ++i) screen[i] = Project(polygon[i], v);
-    for (int i = 2; i < count; ++i) Emit(screen[0], screen[i - 1], screen[i], primitive, RecordKind::Triangle);
+    for (int i = 2; i < count; ++i) Emit(screen[0], screen[i - 1], screen[i], primitive, RecordKind::Triangle, true);
   }
 
   // A line is the rectangle one pixel wide around it (Vulkan 1.3 specification, "Rectangular Line Segments").
@@ -76,7 +81,8 @@ class Assembler {
     const std::int32_t c0 = Code(v[0]), c1 = Code(v[1]);
     if (Rejected(c0, c1, c1)) return;
     ClipVertex ends[2] = {{Homogeneous(v[0]), 0}, {Homogeneous(v[1]), 1}};
-    if (((c0 | c1) & kOutClip) != 0) {
+    const bool clipped = ((c0 | c1) & kOutClip) != 0;
+    if (clipped) {
       ++chunk_.clipped;
       if (ClipLine(view_, c0 | c1, ends) == 0) return;
     }
@@ -87,7 +93,7 @@ class Assembler {
     const glm::dvec2 across = glm::dvec2(-along.y, along.x) * (0.5 / length);
     const double depth_a = Depth(ends[0].position), depth_b = Depth(ends[1].position);
     Quad({At(a - across, depth_a), At(b - across, depth_b), At(b + across, depth_b), At(a + across, depth_a)},
-         primitive, RecordKind::Line);
+         primitive, RecordKind::Line, clipped);
   }
 
   // A point is the square of one pixel around it.
@@ -143,7 +149,9 @@ class Assembler {
   }
   double Depth(const glm::dvec3& h) const { return view_.perspective ? 1.0 / h.z : -h.z; }
 
-  Corner At(const glm::dvec2& pixel, double depth) const { return {Snap(pixel.x), Snap(pixel.y), depth}; }
+  Corner At(const glm::dvec2& pixel, double depth) const {
+    return {Snap(pixel.x, view_.width), Snap(pixel.y, view_.height), depth};
+  }
 
   // A vertex that the clipper did not touch keeps the place that the vertex stage gave it: the neighbours that were not
   // clipped have it there. Where that stage found it outside, it gave it none, and no neighbour has one either.
@@ -153,12 +161,12 @@ class Assembler {
   }
 
   // Half a pixel wide on each side: whether it is seen from the front does not matter.
-  void Quad(const std::array<Corner, 4>& q, std::uint32_t primitive, RecordKind kind) {
-    Emit(q[0], q[1], q[2], primitive, kind);
-    Emit(q[0], q[2], q[3], primitive, kind);
+  void Quad(const std::array<Corner, 4>& q, std::uint32_t primitive, RecordKind kind, bool clipped = false) {
+    Emit(q[0], q[1], q[2], primitive, kind, clipped);
+    Emit(q[0], q[2], q[3], primitive, kind, clipped);
   }
 
-  void Emit(Corner a, Corner b, Corner c, std::uint32_t primitive, RecordKind kind) {
+  void Emit(Corner a, Corner b, Corner c, std::uint32_t primitive, RecordKind kind, bool clipped = false) {
     std::int64_t area = std::int64_t{b.x_fx8 - a.x_fx8} * (c.y_fx8 - a.y_fx8) -
                         std::int64_t{c.x_fx8 - a.x_fx8} * (b.y_fx8 - a.y_fx8);
     // glTF's front faces run counter-clockwise; with y down that is a negative area.
@@ -176,14 +184,15 @@ class Assembler {
     const double x1 = b.x_fx8 - a.x_fx8, y1 = b.y_fx8 - a.y_fx8, x2 = c.x_fx8 - a.x_fx8, y2 = c.y_fx8 - a.y_fx8;
     const double z1 = b.depth - a.depth, z2 = c.depth - a.depth;
     r.depth_0 = a.depth;
-    r.depth_dx = (z1 * y2 - z2 * y1) * scale;
-    r.depth_dy = (z2 * x1 - z1 * x2) * scale;
+    r.depth_dx = std::clamp((z1 * y2 - z2 * y1) * scale, -kSteepestDepth, kSteepestDepth);
+    r.depth_dy = std::clamp((z2 * x1 - z1 * x2) * scale, -kSteepestDepth, kSteepestDepth);
     r.depth_min = static_cast<float>(std::min({a.depth, b.depth, c.depth}));
     r.depth_max = static_cast<float>(std::max({a.depth, b.depth, c.depth}));
     r.drawable = chunk_.drawable;
     r.primitive = primitive;
     r.kind = kind;
     r.back_facing = back;
+    r.clipped = clipped;
     r.covered = coverage.covered;
   }
 

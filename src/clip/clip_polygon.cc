@@ -42,9 +42,13 @@ double Side(const Plane& plane, const ClipVertex& v) {
   return (v.outcode & plane.bit) == 0 && side < 0.0 ? 0.0 : side;
 }
 
-ClipVertex Cut(const ClipVertex& inner, double d_inner, const ClipVertex& outer, double d_outer) {
+ClipVertex Cut(const FrameView& view, const ClipVertex& inner, double d_inner, const ClipVertex& outer,
+               double d_outer) {
   const double t = d_inner / (d_inner - d_outer);
-  return {inner.position + (outer.position - inner.position) * t, -1};
+  ClipVertex cut{inner.position + (outer.position - inner.position) * t, -1};
+  // Beside a corner 1e16 times as far away, the near plane's distance is lost in rounding.
+  if (view.perspective && cut.position.z < 0.5 * view.near_distance) cut.position.z = view.near_distance;
+  return cut;
 }
 
 }  // namespace
@@ -61,7 +65,7 @@ int ClipPolygon(const FrameView& view, std::int32_t outcodes, ClipVertex* vertic
       const double da = Side(planes[p], a), db = Side(planes[p], b);
       if (da >= 0.0 && kept < kMaxClipVertices) next[kept++] = a;
       if ((da >= 0.0) != (db >= 0.0) && kept < kMaxClipVertices) {
-        next[kept++] = da >= 0.0 ? Cut(a, da, b, db) : Cut(b, db, a, da);
+        next[kept++] = da >= 0.0 ? Cut(view, a, da, b, db) : Cut(view, b, db, a, da);
       }
     }
     count = kept;
@@ -76,8 +80,8 @@ int ClipLine(const FrameView& view, std::int32_t outcodes, ClipVertex* vertices)
   for (int p = 0; p < plane_count; ++p) {
     const double da = Side(planes[p], vertices[0]), db = Side(planes[p], vertices[1]);
     if (da < 0.0 && db < 0.0) return 0;
-    if (da < 0.0) vertices[0] = Cut(vertices[1], db, vertices[0], da);
-    if (db < 0.0) vertices[1] = Cut(vertices[0], da, vertices[1], db);
+    if (da < 0.0) vertices[0] = Cut(view, vertices[1], db, vertices[0], da);
+    if (db < 0.0) vertices[1] = Cut(view, vertices[0], da, vertices[1], db);
   }
   return 2;
 }

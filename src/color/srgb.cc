@@ -8,6 +8,7 @@
 
 #include "base/check.h"
 #include "math/elementary.h"
+#include "math/round_to_float.h"
 
 namespace facet {
 namespace {
@@ -54,7 +55,7 @@ std::vector<float> MakeThresholds16() {
 
 }  // namespace
 
-float SrgbToLinear(float encoded) { return static_cast<float>(Decode(encoded)); }
+float SrgbToLinear(float encoded) { return RoundToFloat(Decode(encoded)); }
 float LinearToSrgb(float linear) { return static_cast<float>(Encode(linear)); }
 
 const std::array<float, 256>& Srgb8ToLinearTable() {

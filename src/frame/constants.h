@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 
 namespace facet {
 
@@ -32,6 +33,15 @@ static_assert(kMaxDelta_fx8 * (kBlockSize * kSampleGrid - 1) * 2 <= std::int64_t
               "32-bit edge functions overflow inside a block");
 // At the block's corner it is a product of two differences of snapped positions, with room to spare in 64 bits:
 static_assert((kMaxDelta_fx8 * 2) * (kMaxDelta_fx8 * 2) < INT64_MAX / 4, "64-bit edge functions overflow");
+
+// --- Depth ----------------------------------------------------------------------------------------------------------
+// The least distance of a perspective view, and the most of an orthographic one: a depth, 1 / distance or -distance, is
+// no larger than kMostDistance, so that it and its rates over the screen, extrapolated over a triangle and a block, are
+// floats. Rates are kept below kSteepestDepth where a triangle may be larger than small_triangles.h has it.
+inline constexpr double kLeastDistance = 1e-28, kMostDistance = 1.0 / kLeastDistance;
+inline constexpr double kSteepestDepth = 1e33;  // per pixel
+static_assert(kMostDistance + 2.0 * kSteepestDepth * (2 * kGuardBand + kBlockSize) <
+              double{std::numeric_limits<float>::max()});
 
 // --- Planes -------------------------------------------------------------------------------------------------------------
 // Interpolation planes are rounded to float relative to an anchor: the pixel's position with its low six bits cleared.

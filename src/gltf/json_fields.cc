@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <limits>
 
+#include "math/round_to_float.h"
+
 namespace facet::gltf {
 namespace {
 
@@ -198,7 +200,7 @@ std::vector<float> LenientFloats(const Json& object, const char* key, const Plac
   const Json* array = LenientArray(object, key, place);
   if (!array) return {};
   std::vector<float> floats;
-  for (const double number : LenientNumbers(object, key, array->size(), place)) floats.push_back(ToFloat(number));
+  for (const double number : LenientNumbers(object, key, array->size(), place)) floats.push_back(RoundToFiniteFloat(number));
   return floats;
 }
 
@@ -212,11 +214,6 @@ std::string NameOf(const Json& object, const Place& place) { return LenientStrin
 const Json* ExtensionOf(const Json& object, const char* name, const Place& place) {
   const Json* extensions = LenientObject(object, "extensions", place);
   return extensions ? LenientObject(*extensions, name, Place(place, "extensions")) : nullptr;
-}
-
-float ToFloat(double value) {
-  constexpr double kLargest = std::numeric_limits<float>::max();
-  return static_cast<float>(std::min(std::max(value, -kLargest), kLargest));
 }
 
 const Json& LenientElement(const Json& element, const Place& place) {

@@ -62,9 +62,6 @@ std::string NameOf(const Json& object, const Place& place);  // "name", or empty
 // object.extensions.NAME, an object; null when absent. Lenient.
 const Json* ExtensionOf(const Json& object, const char* name, const Place& place);
 
-// The nearest float; what is too large becomes the largest.
-float ToFloat(double value);
-
 // As an object to read: what is none is an empty one, with a warning.
 const Json& LenientElement(const Json& element, const Place& place);
 

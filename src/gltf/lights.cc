@@ -2,6 +2,7 @@
 #include <string>
 
 #include "gltf/nodes.h"
+#include "math/round_to_float.h"
 
 namespace facet::gltf {
 namespace {
@@ -32,7 +33,7 @@ void ReadSpotCone(const Json& object, Light& light, const Place& place) {
 // Light that is less than none is none.
 float Positive(double value, const Place& place) {
   if (value < 0.0) place.Warn("is negative; 0 is used");
-  return ToFloat(std::max(value, 0.0));
+  return RoundToFiniteFloat(std::max(value, 0.0));
 }
 
 Light ReadLight(const Json& object, const Place& place) {
@@ -57,7 +58,7 @@ Light ReadLight(const Json& object, const Place& place) {
   if (!known) light.intensity = 0.0f;
   if (const auto range = LenientNumber(object, "range", place)) {
     if (*range > 0.0) {
-      light.range = ToFloat(*range);
+      light.range = RoundToFiniteFloat(*range);
     } else {
       Place(place, "range").Warn("ignored: is not positive");
     }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "math/round_to_float.h"
+
 namespace facet::gltf {
 namespace {
 
@@ -29,7 +31,7 @@ class MaterialReader {
     }
     out.normal_texture = Ref(object_, "normalTexture", place_);
     if (const Json* info = LenientObject(object_, "normalTexture", place_)) {
-      out.normal_scale = ToFloat(LenientNumber(*info, "scale", Place(place_, "normalTexture")).value_or(1.0));
+      out.normal_scale = RoundToFiniteFloat(LenientNumber(*info, "scale", Place(place_, "normalTexture")).value_or(1.0));
     }
     out.occlusion_texture = Ref(object_, "occlusionTexture", place_);
     if (const Json* info = LenientObject(object_, "occlusionTexture", place_)) {
@@ -68,7 +70,7 @@ class MaterialReader {
   static float Clamp(double value, double high, const Place& where) {
     const double clamped = std::min(std::max(value, 0.0), high);
     if (clamped != value) where.Warn("a number outside of its range was clamped");
-    return ToFloat(clamped);
+    return RoundToFiniteFloat(clamped);
   }
 
   static float Factor(const Json& object, const char* key, double otherwise, double high, const Place& place) {
@@ -96,9 +98,9 @@ class MaterialReader {
     const Place transform_place(extensions_place, kTransform);
     const auto offset = LenientNumbers(*transform, "offset", 2, transform_place);
     const auto scale = LenientNumbers(*transform, "scale", 2, transform_place);
-    if (!offset.empty()) ref.offset = {ToFloat(offset[0]), ToFloat(offset[1])};
-    if (!scale.empty()) ref.scale = {ToFloat(scale[0]), ToFloat(scale[1])};
-    ref.rotation = ToFloat(LenientNumber(*transform, "rotation", transform_place).value_or(0.0));
+    if (!offset.empty()) ref.offset = {RoundToFiniteFloat(offset[0]), RoundToFiniteFloat(offset[1])};
+    if (!scale.empty()) ref.scale = {RoundToFiniteFloat(scale[0]), RoundToFiniteFloat(scale[1])};
+    ref.rotation = RoundToFiniteFloat(LenientNumber(*transform, "rotation", transform_place).value_or(0.0));
     SetTexCoord(*transform, transform_place, ref);
     return ref;
   }

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+
 namespace facet::gltf {
 namespace {
 

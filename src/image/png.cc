@@ -227,8 +227,10 @@ PageVector<unsigned char> Pack(const Image& image) {
       libdeflate_alloc_compressor(1), libdeflate_free_compressor);
   if (!compressor) throw Error(ErrorCode::OutOfMemory, "no memory for libdeflate");
   PageVector<unsigned char> packed(libdeflate_zlib_compress_bound(compressor.get(), filtered.size()));
-  packed.resize(
-      libdeflate_zlib_compress(compressor.get(), filtered.data(), filtered.size(), packed.data(), packed.size()));
+  const std::size_t size =
+      libdeflate_zlib_compress(compressor.get(), filtered.data(), filtered.size(), packed.data(), packed.size());
+  if (size == 0) throw Error(ErrorCode::Internal, "libdeflate did not pack the picture");
+  packed.resize(size);
   return packed;
 }
 

@@ -4,9 +4,12 @@
 #include <array>
 #include <cmath>
 #include <glm/glm.hpp>
+#include <string>
 
 #include "base/check.h"
 #include "base/parallel.h"
+#include "facet/error.h"
+#include "image/codec.h"
 #include "image/convert.h"
 #include "light/environment_kernels.h"
 #include "light/irradiance_harmonics.h"
@@ -299,6 +302,16 @@ void LayOutLevels(std::int32_t base, EnvironmentMap& map) {
 
 std::shared_ptr<const EnvironmentMap> PrefilterEnvironment(const Image& equirectangular,
                                                            const EnvironmentOptions& options) {
+  // Kernels count in 32 bits; the same limits as for pictures that are decoded.
+  const std::int64_t pixels = std::int64_t{equirectangular.width} * equirectangular.height;
+  if (equirectangular.width > kMaxImageSide || equirectangular.height > kMaxImageSide ||
+      pixels > std::int64_t{kMaxImagePixels}) {
+    throw Error(ErrorCode::OutOfMemory,
+                std::to_string(equirectangular.width) + " x " + std::to_string(equirectangular.height) +
+                    " pixels are more than the limit of " + std::to_string(kMaxImageSide) + " a side and " +
+                    std::to_string(kMaxImagePixels) + " in all",
+                "environment", "scale the picture down");
+  }
   CheckImage(equirectangular, "environment");
   auto map = std::make_shared<EnvironmentMap>();
   std::int32_t width = equirectangular.width, height = 0;

@@ -71,7 +71,8 @@ struct EnvironmentOptions {
 
 // Prepares an equirectangular picture (any type, encoding and channel count; alpha is ignored). Runs in parallel; the
 // same bits on every instruction set and thread count. Numbers that are not finite or negative count as 0. Throws
-// Error(InvalidInput) for an image that breaks its own rules.
+// Error: InvalidUsage for an image that breaks its own rules, OutOfMemory for one beyond the limits of decoded pictures
+// (image/codec.h).
 std::shared_ptr<const EnvironmentMap> PrefilterEnvironment(const Image& equirectangular,
                                                            const EnvironmentOptions& options = {});
 

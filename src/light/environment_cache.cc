@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <bit>
 #include <cerrno>
 #include <cstddef>
@@ -29,6 +30,7 @@
 #include "facet/load.h"
 #include "facet/version.h"
 #include "image/codec.h"
+#include "image/convert.h"
 #include "light/environment_source.h"
 
 namespace facet {
@@ -85,6 +87,14 @@ Sha256 BeginContent(Header header) {
   Sha256 hash;
   hash.Add(std::as_bytes(std::span(&header, 1)));
   return hash;
+}
+
+// What PrefilterEnvironment() can make: means of numbers from 0 to kMaxRadiance, and rounding. NaN is none.
+bool IsLight(std::span<const float> numbers) {
+  constexpr float kMost = 2.0f * kMaxRadiance;
+  bool fine = true;
+  for (const float number : numbers) fine &= (number >= 0.0f) & (number <= kMost);
+  return fine;
 }
 
 class OpenFile {
@@ -185,19 +195,21 @@ class CachedEnvironment final : public EnvironmentSource {
 
     Sha256 hash = BeginContent(header);
     std::uint64_t offset = sizeof(Header);
+    std::atomic<bool> is_light = true;  // the digest says only that nothing was damaged: anybody can make one
     const auto read = [&](PageVector<float>& floats, std::size_t count) {
       floats.resize(count);
       const auto bytes = std::as_writable_bytes(std::span(floats));
       AddInPieces(hash, bytes.size(), [&](std::size_t first, std::size_t size, Scratch&) {
         const auto piece = bytes.subspan(first, size);
         if (!file.Read(offset + first, piece)) std::ranges::fill(piece, std::byte{0});  // the digest is another then
+        if (!IsLight(std::span(floats).subspan(first / sizeof(float), size / sizeof(float)))) is_light = false;
         return std::span<const std::byte>(piece);
       });
       offset += bytes.size();
     };
     read(map->texels, texel_count);
     read(map->picture, picture_count);
-    if (hash.Finish() != header.content) return nullptr;
+    if (hash.Finish() != header.content || !is_light) return nullptr;
     map->texel_data = map->texels.data();
     if (options.keep_picture) map->picture_data = map->picture.data();
     map->picture_width = header.picture_width;

@@ -1,14 +1,18 @@
 #include "light/punctual.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "math/elementary.h"
+#include "math/round_to_float.h"
 
 namespace facet {
 namespace {
 
+bool IsFinite(const float (&v)[3]) { return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]); }
+
 void Copy(glm::dvec3 from, float* to) {
-  for (int i = 0; i < 3; ++i) to[i] = static_cast<float>(from[i]);
+  for (int i = 0; i < 3; ++i) to[i] = RoundToFloat(from[i]);
 }
 
 }  // namespace
@@ -24,6 +28,8 @@ std::vector<PunctualLight> MakePunctualLights(const std::vector<PosedLight>& lig
     PunctualLight p;
     p.type = light.type;
     Copy(posed.position_world - eye_world, p.position_eye);
+    // From so far away that no float says how far, nothing arrives.
+    if (light.type != LightType::Directional && !IsFinite(p.position_eye)) continue;
     Copy(posed.direction_world, p.direction);
     Copy(radiant, p.radiant);
     if (light.type != LightType::Directional) {

@@ -19,7 +19,8 @@ struct PunctualLight {
   float spot_offset = 1.0f;
 };
 
-// In the scene's order; lights that are black or of no range are left out. `eye_world`: the camera's position.
+// In the scene's order; lights that are black, of no range or infinitely far away are left out. `eye_world`: the
+// camera's position.
 std::vector<PunctualLight> MakePunctualLights(const std::vector<PosedLight>& lights, glm::dvec3 eye_world);
 
 }  // namespace facet

@@ -169,14 +169,14 @@ bool ExactGeometry::HitWide(const Shape& shape, const glm::dvec2& place, Hit& hi
   const glm::dvec2 off = place - wide.from;
   if (!wide.is_line) {
     hit.weight = {1.0, 0.0, 0.0};
-    hit.depth = static_cast<float>(wide.from_depth);
+    hit.depth = RoundToFloat(wide.from_depth);
     return std::fabs(off.x) <= 0.5 && std::fabs(off.y) <= 0.5;
   }
   const glm::dvec2 whole = wide.to - wide.from;
   const double length = glm::length(whole), along = glm::dot(off, whole) / (length * length);
   const double across = (off.x * whole.y - off.y * whole.x) / length;
   if (along < 0.0 || along > 1.0 || std::fabs(across) > 0.5) return false;
-  hit.depth = static_cast<float>(wide.from_depth + (wide.to_depth - wide.from_depth) * along);
+  hit.depth = RoundToFloat(wide.from_depth + (wide.to_depth - wide.from_depth) * along);
   const glm::dvec3* v = shape.screen;
   const glm::dvec3 screen = view_.ScreenAt(place);
   const double first = glm::dot(glm::cross(v[1], v[2]), screen), second = glm::dot(glm::cross(v[2], v[0]), screen);

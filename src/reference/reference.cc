@@ -367,7 +367,7 @@ Film ToFilm(const ReferenceFilm& reference) {
   Film film;
   film.width = reference.width;
   film.height = reference.height;
-  for (const glm::dvec4& pixel : reference.pixels) film.pixels.emplace_back(pixel);
+  for (const glm::dvec4& pixel : reference.pixels) film.pixels.push_back(RoundToFloat(pixel));
   return film;
 }
 

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <glm/glm.hpp>
 
+#include "frame/constants.h"
 #include "math/elementary.h"
+#include "math/round_to_float.h"
 #include "scene/camera.h"
 
 namespace facet {
@@ -18,8 +20,8 @@ struct ExactView {
         height(picture_height),
         perspective(!camera.lens.orthographic),
         pixel(2.0 * (perspective ? Tan(0.5 * camera.lens.yfov) : camera.lens.ymag) / picture_height),
-        near_distance(perspective ? std::max(camera.lens.znear, 1e-30) : camera.lens.znear),
-        far_distance(camera.lens.zfar),
+        near_distance(std::max(camera.lens.znear, perspective ? kLeastDistance : -kMostDistance)),
+        far_distance(perspective ? camera.lens.zfar : std::min(camera.lens.zfar, kMostDistance)),
         eye_world(camera.world_from_camera[3]),
         camera_from_world(glm::transpose(glm::dmat3(camera.world_from_camera))) {}
 
@@ -40,7 +42,7 @@ struct ExactView {
     return glm::normalize((perspective ? glm::dvec3(s.x, s.y, -1.0) : glm::dvec3(0.0, 0.0, -1.0)) * camera_from_world);
   }
   // What surfaces are ordered by, rounded to the picture's convention: larger is nearer.
-  float DepthAt(double distance) const { return static_cast<float>(perspective ? 1.0 / distance : -distance); }
+  float DepthAt(double distance) const { return RoundToFloat(perspective ? 1.0 / distance : -distance); }
 
   int width, height;
   bool perspective;

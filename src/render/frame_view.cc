@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "frame/constants.h"
 #include "math/elementary.h"
+#include "math/round_to_float.h"
 #include "scene/topology.h"
 
 namespace facet {
@@ -15,9 +16,8 @@ FrameView MakeFrameView(const ResolvedCamera& camera, int width, int height) {
   view.width = width;
   view.height = height;
   view.perspective = !lens.orthographic;
-  // As floats in the vertex stage: neither may leave their range there.
-  view.near_distance = view.perspective ? std::max(lens.znear, 1e-30) : lens.znear;
-  view.far_distance = lens.zfar < 1e30 ? lens.zfar : std::numeric_limits<double>::infinity();
+  view.near_distance = std::max(lens.znear, view.perspective ? kLeastDistance : -kMostDistance);
+  view.far_distance = view.perspective ? lens.zfar : std::min(lens.zfar, kMostDistance);
   view.eye_world = glm::dvec3(camera.world_from_camera[3]);
   view.camera_from_world = glm::transpose(glm::dmat3(camera.world_from_camera));
   if (view.perspective) {
@@ -76,7 +76,7 @@ FrameDrawable MakeFrameDrawable(const FrameView& view, const Drawable& drawable)
     const glm::dvec3 row = rows[i] * camera_linear;
     const double translation = glm::dot(rows[i], camera_origin) + offsets[i];
     out.screen_from_mesh[i] = glm::dvec4(row, translation);
-    out.screen_from_local[i] = glm::vec4(glm::dvec4(row, glm::dot(row, glm::dvec3(out.centre_mesh)) + translation));
+    out.screen_from_local[i] = RoundToFloat(glm::dvec4(row, glm::dot(row, glm::dvec3(out.centre_mesh)) + translation));
   }
   return out;
 }

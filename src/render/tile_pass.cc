@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <atomic>
 #include <bit>
-#include <cstdlib>
-#include <limits>
 #include <memory>
 #include <mutex>
 #include <numeric>
@@ -15,7 +13,7 @@
 #include "facet/shader.h"
 #include "light/cull_lights.h"
 #include "raster/raster_tile.h"
-#include "render/frame_view.h"
+#include "render/lit_box.h"
 #include "render/view_directions.h"
 #include "resolve/resolve_tile.h"
 #include "shade/shade_fragments.h"
@@ -221,51 +219,42 @@ class TileWorker final : public RecordTable {
     }
   }
 
-  // So thin that its fragments may be lit anywhere along it: it has its area from snapping, or its weights are clamped.
-  static bool IsSliver(const TriangleRecord& r) {
-    if (r.kind != RecordKind::Triangle) return false;
-    std::int64_t longest2 = 0, area2 = 0;
-    for (int i = 0, j = 2; i < 3; j = i++) {
-      const std::int64_t x = std::int64_t(r.x_fx8[i]) - r.x_fx8[j], y = std::int64_t(r.y_fx8[i]) - r.y_fx8[j];
-      longest2 = std::max(longest2, x * x + y * y);
-      area2 += std::int64_t(r.x_fx8[j]) * r.y_fx8[i] - std::int64_t(r.x_fx8[i]) * r.y_fx8[j];
-    }
-    return std::abs(area2) < longest2 / 128;
-  }
-
   // Those lights that reach the tile's fragments: all where there are few, or nothing to bound the fragments with, and
   // for shaders of users, who may count them.
   void ChooseLights(const FragmentList& list) {
     constexpr int kFew = 4;
-    constexpr double kBorder = 2.0;  // pixels: lines and points are wider than the places that they are lit at
     lighting_ = in_.lighting;
     const bool all = in_.settings.shader != nullptr || in_.lighting.light_count <= kFew || !in_.view.perspective;
-    if (all) return;
-    float nearest = 0.0f, farthest = std::numeric_limits<float>::infinity();  // depth is 1 / distance
+    if (all || list.Size() == 0) return;
+    LitBox box(in_.view, tile_);
     std::int32_t last_number = kNoRecord;
     for (std::size_t i = 0; i < list.Size(); ++i) {
       if (list.record[i] == last_number) continue;
       last_number = list.record[i];
-      if (IsSliver(Record(last_number))) return;
-      nearest = std::max(nearest, Record(last_number).depth_max);
-      farthest = std::min(farthest, Record(last_number).depth_min);
+      if (!box.Add(Record(last_number), in_.geometry.drawables[Record(last_number).drawable])) return;
     }
-    glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-low);
-    for (const double distance : {1.0 / nearest, 1.0 / farthest}) {
-      for (const int corner : {0, 1, 2, 3}) {
-        const double x = tile_.x0 + (corner & 1 ? tile_.width + kBorder : -kBorder);
-        const double y = tile_.y0 + (corner >> 1 ? tile_.height + kBorder : -kBorder);
-        const glm::dvec3 p = distance * DirectionThrough(in_.view, x, y);
-        low = glm::min(low, p), high = glm::max(high, p);
-      }
-    }
+    glm::dvec3 low, high;
+    box.Corners(low, high);
     LightsReaching(in_.lighting, low, high, reaching_);
     lighting_.lights = reaching_.data();
     lighting_.light_count = static_cast<int>(reaching_.size());
   }
 
-  // Shades the fragments that batch_ names.
+  // Shades the fragments that batch_ names; some at a time, as the numbers of their setups are counted in 32 bits.
   void ShadeBatch(const FrameMaterial& material, ShadedFragments& fragments, bool alpha_only) {
+    constexpr std::size_t kMost = std::size_t{1} << 20;
+    static_assert(kMost * SetupLayout::kStride <= INT32_MAX);
+    if (batch_.size() <= kMost) return ShadeSome(material, fragments, alpha_only);
+    const std::vector<std::uint32_t> whole = batch_;
+    for (auto from = whole.begin(); from != whole.end();) {
+      const auto to = from + std::min<std::ptrdiff_t>(kMost, whole.end() - from);
+      batch_.assign(from, to);
+      ShadeSome(material, fragments, alpha_only);
+      from = to;
+    }
+  }
+
+  void ShadeSome(const FrameMaterial& material, ShadedFragments& fragments, bool alpha_only) {
     const std::size_t n = batch_.size();
     const std::size_t padded = (n + kTaskPadding - 1) / kTaskPadding * kTaskPadding;
     if (n == 0) return;

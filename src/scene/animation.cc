@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "math/elementary.h"
+#include "math/round_to_float.h"
 
 namespace facet {
 namespace {
@@ -87,7 +88,7 @@ std::vector<float> SampleWeights(const AnimationChannel& channel, double time) {
   const std::size_t parts = channel.interpolation == Interpolation::CubicSpline ? 3 : 1;
   const std::size_t width = channel.values.size() / (channel.times.size() * parts);
   std::vector<float> weights(width);
-  for (std::size_t c = 0; c < width; ++c) weights[c] = float(SampleComponent(channel, span, width, c));
+  for (std::size_t c = 0; c < width; ++c) weights[c] = RoundToFloat(SampleComponent(channel, span, width, c));
   return weights;
 }
 

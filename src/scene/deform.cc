@@ -7,6 +7,7 @@
 
 #include "base/parallel.h"
 #include "facet/error.h"
+#include "math/round_to_float.h"
 
 namespace facet {
 namespace {
@@ -43,7 +44,7 @@ void Displace(const std::vector<std::pair<double, const T*>>& active, std::vecto
       const Sum base = Sum(values[i]);
       Sum sum = base;
       for (const auto& [weight, displacements] : active) sum += weight * Sum(displacements[i]);
-      const T result = T(finish(sum, base));
+      const T result = RoundToFloat(finish(sum, base));
       for (int c = 0; c < T::length(); ++c) values[i][c] = result[c];
     }
   });
@@ -166,7 +167,7 @@ void ApplySkin(const JointMatrices& matrices, const Primitive& influences, const
     for (std::size_t i = begin; i < end; ++i) {
       const glm::dmat4 matrix = Blend(matrices, influences, i);
       const glm::dmat3 linear(matrix);
-      primitive.positions[i] = glm::vec3(linear * glm::dvec3(primitive.positions[i]) + glm::dvec3(matrix[3]));
+      primitive.positions[i] = RoundToFloat(linear * glm::dvec3(primitive.positions[i]) + glm::dvec3(matrix[3]));
       if (primitive.normals.empty()) continue;
       const glm::dmat3 cofactors = Cofactors(linear);
       const double handedness = glm::dot(linear[0], cofactors[0]) < 0.0 ? -1.0 : 1.0;  // sign of the determinant

@@ -1,6 +1,5 @@
 #include "shade/shade_in_double.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -30,7 +29,7 @@ class DoubleShader final : public FragmentShader {
       task.red[i] = finite ? static_cast<float>(c.x) : 0.0f;
       task.green[i] = finite ? static_cast<float>(c.y) : 0.0f;
       task.blue[i] = finite ? static_cast<float>(c.z) : 0.0f;
-      task.alpha[i] = finite ? static_cast<float>(std::clamp(shaded.alpha, 0.0, 1.0)) : 0.0f;
+      task.alpha[i] = finite ? static_cast<float>(lanes::Clamp(shaded.alpha, 0.0, 1.0)) : 0.0f;
       if (!finite) ++*task.non_finite;
     }
   }

@@ -10,6 +10,7 @@
 // Must come after foreach_target.h.
 #include "facet/shader/dispatch.h"
 #include "facet/shader/vec-inl.h"
+#include "math/round_to_float.h"
 #include "scene/topology.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -43,19 +44,17 @@ HWY_INLINE Double operator*(Double a, Double b) { return hn::Mul(a.raw, b.raw); 
 HWY_INLINE Double operator/(Double a, Double b) { return hn::Div(a.raw, b.raw); }
 HWY_INLINE Double operator-(Double a) { return hn::Neg(a.raw); }
 HWY_INLINE DoubleMask operator<(Double a, Double b) { return {hn::Lt(a.raw, b.raw)}; }
-HWY_INLINE DoubleMask operator==(Double a, Double b) { return {hn::Eq(a.raw, b.raw)}; }
-HWY_INLINE DoubleMask operator!(DoubleMask a) { return {hn::Not(a.raw)}; }
 HWY_INLINE DoubleMask operator&(DoubleMask a, DoubleMask b) { return {hn::And(a.raw, b.raw)}; }
 HWY_INLINE bool All(DoubleMask a) { return hn::AllTrue(DoubleTag(), a.raw); }
 HWY_INLINE Double Abs(Double a) { return hn::Abs(a.raw); }
 HWY_INLINE Double Sqrt(Double a) { return hn::Sqrt(a.raw); }
 HWY_INLINE Double Select(DoubleMask m, Double a, Double b) { return hn::IfThenElse(m.raw, a.raw, b.raw); }
-HWY_INLINE Double Max(Double a, Double b) { return Select(a < b, b, a); }  // a NaN in b gives a
+HWY_INLINE Double Max(Double a, Double b) { return Select(b < a, a, b); }  // as of Float: a NaN in a gives b
 HWY_INLINE Double Load(const double* p) { return hn::LoadU(DoubleTag(), p); }
 HWY_INLINE Double LoadPromoted(const float* p) { return hn::PromoteTo(DoubleTag(), hn::LoadU(HalfTag(), p)); }
 HWY_INLINE void StoreRounded(Double a, float* p) {
 #if HWY_TARGET == HWY_SCALAR  // Highway's gives the largest float for what is larger
-  *p = static_cast<float>(hn::GetLane(a.raw));
+  *p = RoundToFloat(hn::GetLane(a.raw));
 #else
   hn::StoreU(hn::DemoteTo(HalfTag(), a.raw), HalfTag(), p);
 #endif
@@ -145,7 +144,7 @@ HWY_INLINE void PutPlanes(const Point (&h)[3], RecordKind kind, SetupLanes& out)
     largest = Max(Max(Max(largest, Abs(r.x) * reach), Abs(r.y) * reach), Abs(r.z));
   }
   if (kind == RecordKind::Line) row[2] = {zero, zero, zero};  // the third vertex stands for the line's width
-  const DoubleMask good = (zero < largest) & (largest < Double(HUGE_VAL)) & !(determinant == zero);
+  const DoubleMask good = (zero < largest) & (largest < Double(HUGE_VAL)) & (zero < Abs(determinant));
   for (int i = 0; i < 3; ++i) {
     const Point plane = row[i] / largest;
     const Point degenerate = {zero, zero, Double(i == 0 ? 1.0 : 0.0)};

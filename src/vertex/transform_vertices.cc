@@ -10,6 +10,7 @@
 #include "facet/shader/dispatch.h"
 #include "facet/shader/lane-inl.h"
 #include "frame/constants.h"
+#include "math/round_to_float.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace facet {
@@ -23,8 +24,8 @@ void TransformVerticesKernel(const FrameView& view, const FrameDrawable& drawabl
                   rd = drawable.screen_from_local[2];
   const glm::vec3 c = drawable.centre_mesh;
   const Float width(static_cast<float>(view.width)), height(static_cast<float>(view.height));
-  const Float near_distance(static_cast<float>(view.near_distance));
-  const Float far_distance(static_cast<float>(view.far_distance));
+  const Float near_distance(RoundToFloat(view.near_distance));
+  const Float far_distance(RoundToFloat(view.far_distance));
   const Float guard_left(static_cast<float>(view.width) * 0.5f - static_cast<float>(kGuardBand));
   const Float guard_right(static_cast<float>(view.width) * 0.5f + static_cast<float>(kGuardBand));
   const Float guard_top(static_cast<float>(view.height) * 0.5f - static_cast<float>(kGuardBand));

@@ -93,6 +93,41 @@ TEST(Clip, FarPlane) {
   EXPECT_EQ(Differences(got, [](int, int y, int) { return y >= 34 ? 1 : 0; }), "");
 }
 
+// Depths and their rates are floats wherever a block begins, of the thinnest of triangles at the least distance too.
+TEST(Clip, DepthsAreFloats) {
+  Random random(44);
+  const FrameView view = PerspectiveView(kWidth, kHeight, 40.0, kLeastDistance);
+  std::size_t steep = 0;
+  for (int i = 0; i < 20000; ++i) {
+    SCOPED_TRACE("seed 44, triangle " + std::to_string(i));
+    // Two corners near one another on the screen, the third anywhere, or beside them in a row; of any distance.
+    Primitive primitive;
+    const glm::dvec2 place(random.Real(-0.5, 0.5), random.Real(-0.5, 0.5));
+    for (int k = 0; k < 3; ++k) {
+      const double distance = std::pow(10.0, random.Real(-29.0, 2.0)), reach = k < 2 ? 1e-4 : i % 2 == 0 ? 2.0 : 200.0;
+      const glm::dvec2 at =
+          place + glm::dvec2(random.Real(-reach, reach), random.Real(-1.0, 1.0) * (i % 3 == 0 ? 1e-4 : reach));
+      primitive.positions.emplace_back(glm::dvec3(at, -1.0) * distance);
+    }
+    const FrameDrawable drawable = PlaceDrawable(view, primitive, glm::dmat4(1.0), true);
+    for (const TriangleRecord& r : Assemble(view, drawable, 8).chunk.records) {
+      const double most{std::numeric_limits<float>::max()};
+      steep += std::fabs(r.depth_dx) >= kSteepestDepth || std::fabs(r.depth_dy) >= kSteepestDepth;
+      for (const double x : {GreatestOf(r.x_fx8) / 256.0 + kBlockSize, LeastOf(r.x_fx8) / 256.0 - kBlockSize}) {
+        for (const double y : {GreatestOf(r.y_fx8) / 256.0 + kBlockSize, LeastOf(r.y_fx8) / 256.0 - kBlockSize}) {
+          const double depth =
+              r.depth_0 + r.depth_dx * (x - r.x_fx8[0] / 256.0) + r.depth_dy * (y - r.y_fx8[0] / 256.0);
+          ASSERT_LE(std::fabs(depth), most);
+        }
+      }
+      ASSERT_LE(std::fabs(r.depth_dx), most);
+      ASSERT_LE(std::fabs(r.depth_dy), most);
+      ASSERT_TRUE(std::isfinite(r.depth_min) && std::isfinite(r.depth_max));
+    }
+  }
+  EXPECT_GT(steep, 10u);
+}
+
 TEST(Clip, OutsideThereIsNothing) {
   Random random(44);
   const FrameView view = PerspectiveView(kWidth, kHeight, 40.0, 0.5, 20.0);

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <functional>
@@ -11,6 +12,7 @@
 
 #include "base/sha256.h"
 #include "facet/load.h"
+#include "image/convert.h"
 #include "image/image_test_util.h"
 #include "light/environment_source.h"
 #include "light/studio.h"
@@ -188,6 +190,28 @@ TEST_F(EnvironmentCache, DamageIsFoundAndMended) {
   Keep();
   EXPECT_EQ(Read(entry), whole);
   ExpectSameMap(*Find(), *map);
+}
+
+// The digest keeps nobody from writing an entry: what no picture can become is not taken.
+TEST_F(EnvironmentCache, WhatIsNoLightIsNotTaken) {
+  const auto find_with = [&](float number, bool in_picture, std::size_t at) {
+    EnvironmentMap map;
+    LayOutLevels(64, map);
+    map.picture_width = 16, map.picture_height = 8;
+    map.picture.assign(16 * 8 * 4, 1.0f);
+    PageVector<float>& floats = in_picture ? map.picture : map.texels;
+    floats[at < floats.size() ? at : floats.size() - 1] = number;
+    EXPECT_EQ(Open()->Keep(kOptions, map), "");
+    return Find();
+  };
+  for (const bool in_picture : {false, true}) {
+    for (const std::size_t at : {std::size_t{0}, std::size_t{5}, ~std::size_t{0}}) {
+      for (const float fine : {0.0f, -0.0f, 1.0f, kMaxRadiance}) EXPECT_NE(find_with(fine, in_picture, at), nullptr);
+      for (const float bad : {NAN, INFINITY, -INFINITY, -1.0f, -1e-45f, 3e38f}) {
+        EXPECT_EQ(find_with(bad, in_picture, at), nullptr) << bad << " at " << at;
+      }
+    }
+  }
 }
 
 TEST_F(EnvironmentCache, AnotherEntryInItsPlaceIsNotTaken) {

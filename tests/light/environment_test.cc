@@ -266,6 +266,24 @@ TEST(Environment, AnySizeAndType) {
   EXPECT_THROW(PrefilterEnvironment(Image{}), Error);
 }
 
+// Before anything is read: such a picture has more pixels than 32 bits count numbers of.
+TEST(Environment, PicturesBeyondTheLimitsAreRefused) {
+  for (const auto& [width, height] :
+       {std::pair(32768, 16384), {32768, 32768}, {32769, 1}, {1, 32769}, {1 << 30, 1 << 30}}) {
+    Image image;  // without its bytes, which would be gigabytes
+    image.width = width, image.height = height, image.channels = 3;
+    try {
+      PrefilterEnvironment(image);
+      FAIL() << width << " x " << height << " was taken";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::OutOfMemory);
+      EXPECT_NE(std::string(error.what()).find(std::to_string(width) + " x " + std::to_string(height)),
+                std::string::npos)
+          << error.what();
+    }
+  }
+}
+
 TEST(Environment, SameBitsOnEveryInstructionSetAndThreadCount) {
   const Image image = Paint(256, 128, [](Vec3<double> d) { return std::exp(3.0 * d.x) + d.z * d.z; });
   PageVector<float> scalar;

@@ -104,5 +104,18 @@ TEST(PunctualLights, WhatCannotShineIsLeftOut) {
   EXPECT_EQ(prepared[0].type, LightType::Spot);
 }
 
+// Beyond all floats there is no direction to a light: it would make all that it lights black.
+TEST(PunctualLights, BeyondAllFloatsShineNothing) {
+  const Light point = MakeLight(LightType::Point, 1.0f), spot = MakeLight(LightType::Spot, 1.0f),
+              sun = MakeLight(LightType::Directional, 1.0f);
+  for (const double x : {1e39, -1e300, double(INFINITY), double(NAN)}) {
+    const glm::dvec3 place(0.0, x, 0.0), down(0.0, -1.0, 0.0);
+    const auto prepared = MakePunctualLights({{&point, place, down}, {&spot, place, down}, {&sun, place, down}}, {});
+    ASSERT_EQ(prepared.size(), 1u) << x;
+    EXPECT_EQ(prepared[0].type, LightType::Directional);
+  }
+  EXPECT_EQ(MakePunctualLights({{&point, {3e38, 0, 0}, {0, -1, 0}}}, {}).size(), 1u);
+}
+
 }  // namespace
 }  // namespace facet

@@ -176,6 +176,29 @@ TEST(InvarianceOfMasks, TileSizesAndOrder) {
   EXPECT_TRUE(SameBytes(Render(scene, settings), expected)) << "in another order";
 }
 
+// A tile of a million fragments is shaded in pieces.
+TEST(InvarianceOfLayers, TileSizes) {
+  Scene scene;
+  Material material;
+  material.alpha_mode = AlphaMode::Blend;
+  material.base_color_factor = {0.9f, 0.5f, 0.2f, 0.02f};
+  const int thin = AddMaterial(scene, material);
+  material.base_color_factor = {0.1f, 0.6f, 0.9f, 0.03f};
+  material.metallic_factor = 0.0f;
+  const int other = AddMaterial(scene, material);
+  constexpr int kLayers = 600;
+  for (int i = 0; i < kLayers; ++i) Add(scene, Rectangle(-1, -1, 1, 1, float(i) * 1e-3f), i % 2 == 0 ? thin : other);
+  RenderSettings settings = Settings(64, 64, 1, Orthographic(1.0));
+  settings.environment = ConstantEnvironment(1.0f);
+  settings.environment_size = 64;
+  settings.tile_size = 64;
+  RenderStats stats;
+  const Film film = Render(scene, settings, &stats);
+  EXPECT_EQ(stats.fragments_blended, std::uint64_t{64 * 64 * kLayers});
+  settings.tile_size = 8;
+  EXPECT_TRUE(SameBytes(Render(scene, settings), film));
+}
+
 TEST_F(Invariance, Repetition) {
   for (int i = 0; i < 3; ++i) EXPECT_TRUE(SameBytes(Render(scene_, settings_), film_));
 }

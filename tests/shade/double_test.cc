@@ -243,7 +243,7 @@ TEST(DoubleShader, UnlitTexelsAndColorsAreTheSameBits) {
       nearest));
   Add(scene, Rectangle(-1, -1, 0, 1), AddMaterial(scene, textured));
   Add(scene, Rectangle(0, -1, 1, 0), AddMaterial(scene, Unlit({0.3f, 0.7f, 0.123f, 1.0f})));
-  Add(scene, Rectangle(0, 0, 1, 1), AddMaterial(scene, Unlit({0.3f, 7.0f, 0.1f, 0.6f}, AlphaMode::Blend)));
+  Add(scene, Rectangle(0, 0, 1, 1), AddMaterial(scene, Unlit({0.3f, 1.0f, 0.1f, 0.6f}, AlphaMode::Blend)));
   // 100 pixels to 5 texels a side: no pixel's centre is on the edge of two.
   const Films films = Draw(scene, Settings(200, 200, 1, Orthographic(1.0)));
   EXPECT_TRUE(SameBytes(films.lanes, films.exact));
@@ -372,6 +372,25 @@ TEST(DoubleShader, WhatNoFloatHoldsIsBlackAndCounted) {
       EXPECT_NEAR(f.green[i], good ? 0.5f : 0.0f, 1e-6) << i;
       EXPECT_EQ(f.alpha[i], good ? 1.0f : 0.0f) << i;
     }
+  }
+}
+
+// Min and Max are selections on lanes and in double alike: a zero's sign is the same.
+TEST(DoubleShader, NegativeZeroOfAlphaIsZero) {
+  Fragments f(16);
+  for (std::size_t i = 0; i < 16; ++i) {
+    float* setup = &f.setups[i * SetupLayout::kStride];
+    for (int v = 0; v < 3; ++v) {
+      setup[SetupLayout::kPlanes + 3 * v + 2] = 1.0f;
+      setup[SetupLayout::kColors + 4 * v + 3] = -0.0f;
+    }
+  }
+  MakeDoubleShader()->Shade(f.Task());
+  const std::vector<float> in_double = f.alpha;
+  ShadeMetallicRoughnessFragments(f.Task());
+  for (std::size_t i = 0; i < 16; ++i) {
+    EXPECT_EQ(std::bit_cast<std::uint32_t>(in_double[i]), 0u) << i;
+    EXPECT_EQ(std::bit_cast<std::uint32_t>(f.alpha[i]), 0u) << i;
   }
 }
 

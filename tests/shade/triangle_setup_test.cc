@@ -200,5 +200,36 @@ TEST(SetUpTriangles, NormalsThatAreUselessBecomeFlat) {
   EXPECT_GT(toward_eye, 2);
 }
 
+// A matrix with a NaN in it leaves no plane: such a triangle takes everything from its first vertex, as one without
+// area does.
+TEST(SetUpTriangles, WhatIsNoNumberTakesItsFirstVertex) {
+  const FrameView view = View(false);
+  std::mt19937 random(43);
+  Mixture scene(random, view);
+  std::vector<const TriangleRecord*> records;
+  for (const TriangleRecord& r : scene.records) {
+    if (r.kind == RecordKind::Triangle) records.push_back(&r);
+  }
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 4; ++column) {
+      Mixture broken = scene;
+      for (std::size_t d = 0; d < broken.drawables.size(); ++d) {
+        broken.drawables[d].screen_from_mesh[row][column] = std::numeric_limits<double>::quiet_NaN();
+      }
+      for (const Target target : {Target::Scalar, Target::Sse4, Target::Avx2, Target::Avx3, Target::Neon}) {
+        if (!TargetIsAvailable(target)) continue;
+        const ScopedTarget scoped(target);
+        const std::vector<float> setups = SetUpAll(view, broken, Materials()[0], records, records.size());
+        for (std::size_t i = 0; i < records.size(); ++i) {
+          const float* planes = &setups[i * SetupLayout::kStride + SetupLayout::kPlanes];
+          const float first[9] = {0, 0, 1, 0, 0, 0, 0, 0, 0};
+          ASSERT_TRUE(std::equal(first, first + 9, planes))
+              << TargetName(target) << ", NaN in row " << row << ", column " << column << ", record " << i;
+        }
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace facet

@@ -80,10 +80,11 @@ Measured MeasureIntensities() {
   return m;
 }
 
-// What floats cannot hold becomes black, and is counted: each fragment of the rectangle.
+// What floats cannot hold becomes black, and is counted: each fragment of the rectangle. What is no light at all is
+// refused.
 Measured MeasureOverflow() {
   Measured m;
-  for (const float intensity : {3e38f, kInfinity}) {
+  for (const float strength : {1.0f, 10.0f}) {
     Scene scene;
     Material material;
     material.roughness_factor = 0.0f;
@@ -91,23 +92,29 @@ Measured MeasureOverflow() {
     Transform place;
     place.translation = {0, 0, 1e-2};
     // Candela over the square of a centimetre: 1e42 lux.
-    AddLight(scene, MakeLight(LightType::Directional, kInfinity), {});
-    AddLight(scene, MakeLight(LightType::Point, intensity), place);
+    Light light = MakeLight(LightType::Directional, 3e38f);
+    light.color = glm::vec3(10.0f);  // 3e39 lux
+    AddLight(scene, light, {});
+    light = MakeLight(LightType::Point, 3e38f);
+    light.color = glm::vec3(strength);
+    AddLight(scene, light, place);
     const Film film = Draw(scene, Settings(kSize, kSize, 1, Orthographic(1.0)), m, nullptr, kSize * kSize);
     for (const glm::vec4& pixel : film.pixels) m.Error(double(pixel.r));
   }
-  Scene scene = SphereScene(0.5f, 0.0f);
   for (const float nonsense : {kNan, -1.0f, -kInfinity}) {
-    AddLight(scene, MakeLight(LightType::Point, nonsense), {});
+    const auto refuse = [&](const Light& light, const char* culprit) {
+      Scene scene = SphereScene(0.5f, 0.0f);
+      AddLight(scene, light, {});
+      ExpectRefused(scene, SphereSettings(), culprit, m);
+    };
+    refuse(MakeLight(LightType::Point, nonsense), "light 0: intensity");
     Light light = MakeLight(LightType::Spot, 1.0f);
     light.range = nonsense;
-    AddLight(scene, light, {});
+    refuse(light, "light 0: range");
     light = MakeLight(LightType::Directional, 1.0f);
     light.color = glm::vec3(nonsense);
-    AddLight(scene, light, {});
+    refuse(light, "light 0: colour");
   }
-  const Film film = Draw(scene, SphereSettings(), m);
-  for (const glm::vec4& pixel : film.pixels) m.Error(double(pixel.r));
   return m;
 }
 
@@ -308,8 +315,8 @@ std::vector<Case> LightCases() {
   return {
       {"light", "intensities of 1e-30 to 1e30", "fixed-point or half-float light ends at 65504",
        "floats throughout; nothing is compared with a length or a level", "relative", 8 * 0x1p-24, MeasureIntensities},
-      {"light", "infinite, negative and NaN lights; overflow", "one NaN pixel, and a bloom of it",
-       "black and counted; lights that cannot shine are left out", "radiance left", 0.0, MeasureOverflow},
+      {"light", "lights that overflow; infinite, negative and NaN ones", "one NaN pixel, and a bloom of it",
+       "black and counted; refused, by name", "radiance left", 0.0, MeasureOverflow},
       {"light", "a point light 10 m to 1e-15 m away", "1 / d² is infinite, and 0 · infinity NaN",
        "illuminance stays what it is at a millimetre", "relative", 1e-6, MeasureLightAtSurface},
       {"light", "spot cones of 0 and 180 degrees, inverted, NaN", "division by equal cosines",

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "facet/error.h"
 #include "render/hand_built.h"
 
 namespace facet::stability {
@@ -52,6 +53,16 @@ Film Draw(const Scene& scene, const RenderSettings& settings, Measured& measured
   }
   if (stats != nullptr) *stats = own;
   return film;
+}
+
+void ExpectRefused(const Scene& scene, const RenderSettings& settings, const std::string& culprit, Measured& measured) {
+  try {
+    Render(scene, settings);
+    measured.Expect(false, culprit + " is not refused");
+  } catch (const Error& error) {
+    const bool named = std::string(error.what()).find(culprit) != std::string::npos;
+    measured.Expect(error.code() == ErrorCode::InvalidInput && named, culprit + ": " + error.what());
+  }
 }
 
 std::size_t DifferingPixels(const Film& a, const Film& b, float tolerance) {

@@ -90,6 +90,9 @@ std::vector<Curve> AllCurves();
 Film Draw(const Scene& scene, const RenderSettings& settings, Measured& measured, RenderStats* stats = nullptr,
           std::uint64_t non_finite = 0);
 
+// Expects that a scene whose parameters are no numbers is refused, with a message that names `culprit`, and not drawn.
+void ExpectRefused(const Scene& scene, const RenderSettings& settings, const std::string& culprit, Measured& measured);
+
 // Pixels in which two films of one size differ by more than `tolerance` in any number.
 std::size_t DifferingPixels(const Film& a, const Film& b, float tolerance = 0.0f);
 

@@ -51,19 +51,25 @@ RenderSettings SceneSettings(int samples = 4) {
 
 Film DrawAt(const Transform& place, Measured& m) { return Draw(MakeScene(place), SceneSettings(), m); }
 
-// Scales of which one, two or all axes vanish: what is left is a surface, a line or a point, and finite.
+// Scales of which one, two or all axes vanish: what is left is a surface, a line or a point, and finite. Those that
+// leave no number of a float are not seen; those that are no numbers are refused.
 Measured MeasureSingular() {
   Measured m;
   for (const glm::dvec3& scale :
        {glm::dvec3(1, 1, 0), glm::dvec3(0, 1, 1), glm::dvec3(1, 0, 0), glm::dvec3(0), glm::dvec3(1, 1, 1e-300),
-        glm::dvec3(1e-200), glm::dvec3(1e200, 1, 1), glm::dvec3(1, kInfinity, 1), glm::dvec3(kNan)}) {
+        glm::dvec3(1e-200), glm::dvec3(1e200, 1, 1), glm::dvec3(1, 1e300, 1), glm::dvec3(1e308)}) {
     Transform place;
     place.scale = scale;
     RenderStats stats;
     Draw(MakeScene(place), SceneSettings(), m, &stats);
     const bool flat = scale == glm::dvec3(1, 1, 0) || scale == glm::dvec3(1, 1, 1e-300);
     m.Expect(!flat || stats.covered_pixels > 300, "a sphere pressed flat is not seen");
-    m.Expect(std::isfinite(scale.x + scale.y) || stats.covered_pixels == 0, "what has no place is seen");
+    m.Expect(glm::length(scale) < 1e100 || stats.covered_pixels == 0, "what has no place is seen");
+  }
+  for (const glm::dvec3& scale : {glm::dvec3(1, kInfinity, 1), glm::dvec3(kNan)}) {
+    Transform place;
+    place.scale = scale;
+    ExpectRefused(MakeScene(place), SceneSettings(), "node 0: the scale", m);
   }
   m.Error(double(m.sanitised));
   return m;
@@ -94,7 +100,8 @@ Measured MeasureMirrored() {
   return m;
 }
 
-// A multiple of a unit quaternion is the same rotation; one without direction is none. Bound: matrices in double that
+// A multiple of a unit quaternion is the same rotation; one without direction is none where an animation gives it, and
+// refused as a node's own. Bound: matrices in double that
 // differ in their last bits round to floats that differ by one at times; as for skins.
 Measured MeasureQuaternions() {
   Measured m;
@@ -108,9 +115,17 @@ Measured MeasureQuaternions() {
   }
   place.rotation = glm::dquat(1, 0, 0, 0);
   const Film unturned = DrawAt(place, m);
+  place.rotation = unit;
+  Scene animated = MakeScene(place);
+  animated.animations.resize(1);
+  animated.animations[0].channels.push_back(
+      {0, AnimationPath::Rotation, Interpolation::Linear, {0.0f}, {0.0f, 0.0f, 0.0f, 0.0f}});
+  RenderSettings settings = SceneSettings();
+  settings.animation = 0;
+  m.Error(double(DifferingPixels(Draw(animated, settings, m), unturned)));
   for (const double part : {0.0, kNan, kInfinity}) {
     place.rotation = glm::dquat(part, part, part, part);
-    m.Error(double(DifferingPixels(DrawAt(place, m), unturned)));
+    ExpectRefused(MakeScene(place), SceneSettings(), "node 0: the rotation", m);
   }
   return m;
 }
@@ -180,12 +195,15 @@ Measured MeasureSkins() {
 
 std::vector<Case> TransformCases() {
   return {
-      {"transforms", "singular, infinite and NaN scales", "inverse transposes are NaN, and so is the light",
-       "cofactors; a normal without direction faces the eye", "fragments not finite", 0.0, MeasureSingular},
+      {"transforms", "scales that are singular, too large, infinite, NaN",
+       "inverse transposes are NaN, and so is the light",
+       "cofactors; a normal without direction faces the eye; what is no number is refused", "fragments not finite", 0.0,
+       MeasureSingular},
       {"transforms", "a mirrored scene against the mirrored picture", "inside out, with bumps that point inwards",
        "determinant turns winding, normals and bitangents", "relative", 5e-4, MeasureMirrored},
-      {"transforms", "quaternions of length 0, 1e-30 to 1e30, NaN", "shear and size by the quaternion's length",
-       "normalised in double; without direction: no rotation", "relative", 1e-5, MeasureQuaternions},
+      {"transforms", "quaternions of length 1e-30 to 1e30, 0, NaN", "shear and size by the quaternion's length",
+       "normalised in double; without direction: refused, in an animation no rotation", "relative", 1e-5,
+       MeasureQuaternions},
       {"transforms", "skins with zero, negative, NaN and tiny weights", "vertices collapse to the origin or vanish",
        "divided by their sum in double; none: the node's place", "relative", 1e-5, MeasureSkins},
   };

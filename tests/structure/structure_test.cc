@@ -179,6 +179,14 @@ TEST(Structure, LaneHeadersAreIncludedBySourcesAndLaneHeadersOnly) {
   }
 }
 
+// What would be wrong in both could not be found.
+TEST(Structure, OraclesShareNothingWithFacet) {
+  static const std::regex allowed("[a-z_]+|gtest/gtest\\.h|oracle/[a-z_]+\\.h|facet/(load|render|film)\\.h");
+  const auto includes = IncludesUnder({"tests/oracle"});
+  ASSERT_FALSE(includes.empty());
+  for (const Include& include : includes) EXPECT_TRUE(std::regex_match(include.target, allowed)) << At(include);
+}
+
 TEST(Structure, LibrariesDependOnlyOnEarlierRooms) {
   static const std::regex dependency(R"(facet::([a-z_]+))");
   for (const auto& entry : fs::directory_iterator(Root() / "src")) {
