@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <bit>
+#include <limits>
 #include <numeric>
 
+#include "facet/error.h"
 #include "frame/constants.h"
 
 namespace facet {
@@ -85,6 +87,10 @@ void BinChunk(const TileGrid& grid, TriangleChunk& chunk) {
       for (int x = range.x0; x <= range.x1; ++x) {
         if (!test || MayTouch(grid, r, x, y)) entries.push_back({static_cast<std::uint32_t>(y * grid.columns + x), i});
       }
+    }
+    if (entries.size() > std::numeric_limits<std::uint32_t>::max()) {  // which counts them below; 32 GiB of them
+      throw Error(ErrorCode::OutOfMemory, "the triangles of the scene touch too many tiles", {},
+                  "use larger tiles, or render a smaller picture");
     }
   }
   std::vector<Entry> scratch(entries.size());

@@ -258,7 +258,8 @@ def main():
     out = sys.stderr if options.markdown else sys.stdout
     for name, missing in skipped.items():
         if missing:
-            print(f"{name} skipped, for want of OpenImageIO: {', '.join(sorted(missing))}", file=out)
+            files = sorted(pathlib.Path(scene).name for scene in missing)
+            print(f"{name} skipped, for want of OpenImageIO: {', '.join(files)}", file=out)
     for line in differing:
         print(line, file=out)
     print(f"{len(groups)} scenes, {sum(films.values())} films in {len(chosen)} configurations: "
