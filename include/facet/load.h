@@ -40,7 +40,7 @@ struct LoadedScene {
 };
 
 struct LoadOptions {
-  // Bytes that loading may take, all in all: the files, their JSON while it is read, decoded geometry. 0: three quarters
+  // Bytes that loading may take, all in all: the files, their JSON while it is read, what the scene holds. 0: three quarters
   // of what the machine, or the control group of the process, has. What needs more is refused before it is allocated,
   // with Error(OutOfMemory).
   std::uint64_t memory_limit = 0;
@@ -51,8 +51,6 @@ struct LoadOptions {
   // stay as they are for as long as the scene is in use: a mapped file that is cut short meanwhile ends the process with
   // SIGBUS. False: all files are read.
   bool map_files = true;
-  // The most memory that decoded geometry of one file may take; beyond it Error(OutOfMemory).
-  std::size_t max_geometry_bytes = std::size_t(8) << 30;
   // Load in spite of required extensions that facet does not have; each becomes a warning.
   bool ignore_required_extensions = false;
 };

@@ -76,7 +76,7 @@ Bytes ReadStream(int file, std::size_t most, const std::string& name, const Fail
   std::size_t used = 0;
   while (used == bytes.size() && used < most) {
     const std::size_t more = std::min(std::max(kFirst, used), most - used);
-    MemoryBudget::Current().Charge(more, 1, "files", name);
+    MemoryBudget::Current().Charge(more, 1, kFilesCharge, name);
     bytes.resize(used + more);
     used += Fill(file, bytes.data() + used, more, fail);
   }
@@ -128,7 +128,7 @@ Bytes ReadFile(const fs::path& path, const ReadOptions& options, std::uintmax_t*
     Bytes mapped = Map(file.get(), wanted);
     if (mapped.data != nullptr) return mapped;
   }
-  MemoryBudget::Current().Charge(wanted, 1, "files", name);
+  MemoryBudget::Current().Charge(wanted, 1, kFilesCharge, name);
   MutableBytes bytes = AllocateBytes(wanted);
   bytes.size = Fill(file.get(), bytes.data(), wanted, fail);
   return bytes.Freeze();

@@ -43,8 +43,11 @@ struct ReadOptions {
   std::size_t most = std::numeric_limits<std::size_t>::max();  // bytes from the start; what follows is left unread
 };
 
-// A whole file, or its start. What is read is charged to the current memory budget (see memory_budget.h) for good, as
-// "files". `file_size` gets the size of the whole, where given.
+// What files that are read are charged for.
+inline constexpr const char* kFilesCharge = "files";
+
+// A whole file, or its start. What is read (not what is mapped) is charged to the current memory budget (see
+// memory_budget.h) for good. `file_size` gets the size of the whole, where given.
 // Throws Error: NotFound (no such file, a folder, no permission, not a regular file), OutOfMemory.
 Bytes ReadFile(const std::filesystem::path& path, const ReadOptions& options = {}, std::uintmax_t* file_size = nullptr);
 

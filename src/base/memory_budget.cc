@@ -81,6 +81,14 @@ MemoryLease::MemoryLease(std::uint64_t count, std::uint64_t size_each, std::stri
   bytes_ = count * size_each;
 }
 
+MemoryLease MemoryLease::Adopt(std::uint64_t bytes, std::string_view what) {
+  MemoryLease lease;
+  lease.budget_ = &MemoryBudget::Current();
+  lease.bytes_ = bytes;
+  lease.what_ = what;
+  return lease;
+}
+
 MemoryLease::~MemoryLease() {
   if (budget_ != nullptr) budget_->Release(bytes_, what_);
 }

@@ -66,6 +66,8 @@ class MemoryLease {
   MemoryLease(std::uint64_t count, std::uint64_t size_each, std::string_view what, const std::string& where = {},
               const std::string& remedy = {});
   ~MemoryLease();
+  // Takes over what has been charged for `what`.
+  static MemoryLease Adopt(std::uint64_t bytes, std::string_view what);
   MemoryLease(MemoryLease&& other) noexcept;
   MemoryLease& operator=(MemoryLease&& other) noexcept;
 

@@ -3,7 +3,11 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <numeric>
 #include <string>
+#include <utility>
+
+#include "base/memory_budget.h"
 
 namespace facet::gltf {
 namespace {
@@ -70,6 +74,18 @@ void ConvertUnsigned(const std::byte* from, std::size_t stride, std::size_t coun
   }
 }
 
+// Calls visit(which of the range's elements, the bytes that replace it) for each of a sparse accessor.
+template <class Visit>
+void ForEachReplaced(const AccessorView& view, Range range, const Visit& visit) {
+  if (!view.sparse_indices) return;
+  const std::vector<std::uint32_t>& indices = *view.sparse_indices;
+  const std::size_t value_size = view.sparse_values.size / indices.size();
+  for (auto it = std::lower_bound(indices.begin(), indices.end(), range.first);
+       it != indices.end() && *it - range.first < range.count; ++it) {
+    visit(*it - range.first, view.sparse_values.data + std::size_t(it - indices.begin()) * value_size);
+  }
+}
+
 void SetShape(const std::string& name, const Place& place, AccessorInfo& info) {
   struct Shape {
     const char* name;
@@ -107,7 +123,7 @@ AccessorInfo AccessorReader::Describe(int index) {
   const Json& object = context_.Object("accessors", i);
   const Place list_place(context_.place, "accessors");
   const Place place(list_place, i);
-  is_used_[i] = true;
+  accessors_[i].is_used = true;
   AccessorInfo info;
   info.view = IndexAt(object, "bufferView", context_.document.Count("bufferViews"), "bufferViews", place);
   info.offset = SizeAt(object, "byteOffset", place).value_or(0);
@@ -127,12 +143,20 @@ Bytes AccessorReader::Run(int view, std::size_t offset, std::size_t count, std::
   return count == 0 ? Bytes() : bytes.Slice(offset, (count - 1) * stride + size);
 }
 
-AccessorView AccessorReader::View(int index) {
+const AccessorView& AccessorReader::View(int index) {
   const auto i = static_cast<std::size_t>(index);
-  const AccessorInfo info = Describe(index);
-  const Place list_place(context_.place, "accessors");
-  const Place place(list_place, i);
+  Known& known = accessors_[i];
+  if (!known.view) {
+    const Place list_place(context_.place, "accessors");
+    const Place place(list_place, i);
+    context_.Charge(1, sizeof(AccessorView), place);
+    known.view = std::make_shared<const AccessorView>(MakeView(i, place));
+  }
+  return *known.view;
+}
 
+AccessorView AccessorReader::MakeView(std::size_t i, const Place& place) {
+  const AccessorInfo info = Describe(static_cast<int>(i));
   AccessorView view;
   view.count = info.count;
   view.type = info.type;
@@ -168,27 +192,56 @@ void AccessorReader::ReadSparse(const Json& sparse, std::size_t element_size, co
   const Json &indices = RequireObject(sparse, "indices", place), &values = RequireObject(sparse, "values", place);
   const std::size_t views = context_.document.Count("bufferViews");
   RequireSize(indices, "componentType", indices_place);
-  view.sparse_type = static_cast<ComponentType>(*OneOfAt(indices, "componentType", {5121, 5123, 5125}, indices_place));
-  const std::size_t index_size = SizeOfComponent(view.sparse_type);
-  view.sparse_indices =
+  const auto type =
+      static_cast<ComponentType>(*OneOfAt(indices, "componentType", {5121, 5123, 5125}, indices_place));
+  const std::size_t index_size = SizeOfComponent(type);
+  const Bytes index_bytes =
       Run(RequireIndex(indices, "bufferView", views, "bufferViews", indices_place),
           SizeAt(indices, "byteOffset", indices_place).value_or(0), count, index_size, index_size, indices_place);
   view.sparse_values =
       Run(RequireIndex(values, "bufferView", views, "bufferViews", values_place),
           SizeAt(values, "byteOffset", values_place).value_or(0), count, element_size, element_size, values_place);
+  context_.Charge(count, sizeof(std::uint32_t), indices_place);
+  std::vector<std::uint32_t> targets(count);
+  bool sorted = true;
   for (std::size_t k = 0; k < count; ++k) {
-    const std::size_t target = LoadUnsigned(view.sparse_type, view.sparse_indices.data + k * index_size);
-    if (target >= view.count) {
-      Fail(indices_place, std::to_string(target) + " is not one of the " + std::to_string(view.count) + " elements");
+    targets[k] = LoadUnsigned(type, index_bytes.data + k * index_size);
+    if (targets[k] >= view.count) {
+      Fail(indices_place,
+           std::to_string(targets[k]) + " is not one of the " + std::to_string(view.count) + " elements");
     }
+    sorted = sorted && (k == 0 || targets[k] > targets[k - 1]);
   }
-  view.sparse_count = count;
+  if (!sorted) {
+    indices_place.Warn("do not increase");
+    SortSparse(element_size, indices_place, targets, view.sparse_values);
+  }
+  view.sparse_indices = std::make_shared<const std::vector<std::uint32_t>>(std::move(targets));
+}
+
+// Keeps the order of equal indices.
+void AccessorReader::SortSparse(std::size_t element_size, const Place& place, std::vector<std::uint32_t>& targets,
+                                Bytes& values) {
+  const std::size_t count = targets.size();
+  context_.Charge(count, element_size, place);
+  const MemoryLease lease(count, 2 * sizeof(std::uint32_t), "sorting");
+  std::vector<std::uint32_t> order(count), sorted(count);
+  std::iota(order.begin(), order.end(), 0u);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return targets[a] < targets[b]; });
+  const MutableBytes moved = AllocateBytes(count * element_size);
+  for (std::size_t k = 0; k < count; ++k) {
+    sorted[k] = targets[order[k]];
+    std::memcpy(moved.data() + k * element_size, values.data + order[k] * element_size, element_size);
+  }
+  targets = std::move(sorted);
+  values = moved.Freeze();
 }
 
 void AccessorReader::CheckUnused() {
   const Place list_place(context_.place, "accessors");
-  for (std::size_t i = 0; i < is_used_.size(); ++i) {
-    if (is_used_[i]) continue;
+  for (std::size_t i = 0; i < accessors_.size(); ++i) {
+    if (accessors_[i].is_used) continue;
     const Place place(list_place, i);
     context_.Try(false, place, "nothing reads it", [&] {
       const AccessorInfo info = Describe(static_cast<int>(i));
@@ -210,16 +263,9 @@ void AccessorReader::ReadFloats(const AccessorView& view, Range range, int compo
       for (int c = 0; c < read; ++c) out[i * static_cast<std::size_t>(components) + static_cast<std::size_t>(c)] = 0.0f;
     }
   }
-  if (view.sparse_count != 0) {
-    const std::size_t value_size = view.sparse_values.size / view.sparse_count;
-    for (std::size_t k = 0; k < view.sparse_count; ++k) {
-      const std::size_t target =
-          LoadUnsigned(view.sparse_type, view.sparse_indices.data + k * SizeOfComponent(view.sparse_type));
-      if (target < range.first || target - range.first >= range.count) continue;
-      ConvertAny(view.type, view.sparse_values.data + k * value_size, value_size, 1, read, components, view.normalized,
-                 out + (target - range.first) * static_cast<std::size_t>(components));
-    }
-  }
+  ForEachReplaced(view, range, [&](std::size_t i, const std::byte* value) {
+    ConvertAny(view.type, value, 0, 1, read, components, view.normalized, out + i * static_cast<std::size_t>(components));
+  });
   if (view.type != ComponentType::F32) return;
   const std::size_t total = range.count * static_cast<std::size_t>(components);
   std::size_t bad = 0;
@@ -243,17 +289,12 @@ void AccessorReader::ReadUnsigned(const AccessorView& view, Range range, int com
   } else {
     ConvertUnsigned<std::uint32_t>(from, view.stride, range.count, components, out);
   }
-  const std::size_t value_size = view.sparse_count ? view.sparse_values.size / view.sparse_count : 0;
-  for (std::size_t k = 0; k < view.sparse_count; ++k) {
-    const std::size_t target =
-        LoadUnsigned(view.sparse_type, view.sparse_indices.data + k * SizeOfComponent(view.sparse_type));
-    if (target < range.first || target - range.first >= range.count) continue;
-    for (int c = 0; c < components; ++c) {
-      const std::byte* value = view.sparse_values.data + k * value_size;
-      out[(target - range.first) * static_cast<std::size_t>(components) + static_cast<std::size_t>(c)] =
-          LoadUnsigned(view.type, value + static_cast<std::size_t>(c) * SizeOfComponent(view.type));
+  ForEachReplaced(view, range, [&](std::size_t i, const std::byte* value) {
+    for (std::size_t c = 0; c < static_cast<std::size_t>(components); ++c) {
+      out[i * static_cast<std::size_t>(components) + c] =
+          LoadUnsigned(view.type, value + c * SizeOfComponent(view.type));
     }
-  }
+  });
 }
 
 }  // namespace facet::gltf

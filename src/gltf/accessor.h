@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -40,10 +41,9 @@ struct AccessorView {
   int components = 1;  // 1 to 4 for vectors; 4, 9 or 16 for matrices
   bool is_matrix = false;
   bool normalized = false;
-  // Elements replaced: `sparse_count` indices, tightly packed, and as many elements.
-  std::size_t sparse_count = 0;
-  ComponentType sparse_type = ComponentType::U32;
-  Bytes sparse_indices, sparse_values;
+  // Elements replaced: their indices, which never decrease (of equal ones the last counts), and as many elements.
+  std::shared_ptr<const std::vector<std::uint32_t>> sparse_indices;  // may be null
+  Bytes sparse_values;
 };
 
 // A run of elements.
@@ -54,7 +54,11 @@ struct Range {
 class AccessorReader {
  public:
   AccessorReader(Context& context, BufferStore& buffers)
-      : context_(context), buffers_(buffers), is_used_(context.document.Count("accessors"), false) {}
+      : context_(context), buffers_(buffers) {
+    const std::size_t count = context.document.Count("accessors");
+    context.Charge(count, sizeof(Known), Place(context.place, "accessors"));
+    accessors_.resize(count);
+  }
 
   // Throws Error(InvalidInput) where the file's description is broken.
   AccessorInfo Describe(int accessor);
@@ -62,7 +66,7 @@ class AccessorReader {
 
   // Throws Error(InvalidInput) when an element lies outside of its bytes, Error(OutOfMemory) when the accessor claims
   // more elements than a file that does not hold them may.
-  AccessorView View(int accessor);
+  const AccessorView& View(int accessor);
 
   // Warns of what is wrong with accessors that nobody has asked for, without reading what they hold.
   void CheckUnused();
@@ -77,13 +81,20 @@ class AccessorReader {
   void ReadUnsigned(const AccessorView& view, Range range, int components, std::uint32_t* out);
 
  private:
+  struct Known {
+    bool is_used = false;
+    std::shared_ptr<const AccessorView> view;  // many primitives may share an accessor
+  };
+
+  AccessorView MakeView(std::size_t accessor, const Place& place);
   void ReadSparse(const Json& sparse, std::size_t element_size, const Place& place, AccessorView& view);
+  void SortSparse(std::size_t element_size, const Place& place, std::vector<std::uint32_t>& targets, Bytes& values);
   // `count` elements of `size` bytes, `stride` apart, from `offset` of a buffer view on.
   Bytes Run(int view, std::size_t offset, std::size_t count, std::size_t size, std::size_t stride, const Place& place);
 
   Context& context_;
   BufferStore& buffers_;
-  std::vector<bool> is_used_;
+  std::vector<Known> accessors_;
 };
 
 }  // namespace facet::gltf

@@ -6,10 +6,9 @@
 namespace facet::gltf {
 namespace {
 
+// As many as the mesh has weights, see ReadMeshes.
 std::size_t TargetCount(const Scene& scene, int mesh) {
-  if (mesh < 0) return 0;
-  const auto& primitives = scene.meshes[static_cast<std::size_t>(mesh)].primitives;
-  return primitives.empty() ? 0 : primitives.front().targets.size();
+  return mesh < 0 ? 0 : scene.meshes[static_cast<std::size_t>(mesh)].weights.size();
 }
 
 // Keeps the keys whose times do not decrease.
@@ -129,8 +128,8 @@ class AnimationReader {
     channel.interpolation = InterpolationOf(sampler, place);
     const std::size_t accessors = context_.document.Count("accessors");
     const Place input_place(place, "input"), output_place(place, "output");
-    const AccessorView input = reader_.View(RequireIndex(sampler, "input", accessors, "accessors", place));
-    const AccessorView output = reader_.View(RequireIndex(sampler, "output", accessors, "accessors", place));
+    const AccessorView& input = reader_.View(RequireIndex(sampler, "input", accessors, "accessors", place));
+    const AccessorView& output = reader_.View(RequireIndex(sampler, "output", accessors, "accessors", place));
     if (input.components != 1) Fail(input_place, "times are not scalars");
     if (input.type != ComponentType::F32) input_place.Warn("times are not floats");
     if (output.is_matrix || output.components != target.shape.components) {
@@ -144,6 +143,7 @@ class AnimationReader {
     const std::size_t values = input.count * per_key;
     if (output.count != values) output_place.Warn(sizes + "; the first are read");
     const auto components = static_cast<std::size_t>(target.shape.components);
+    context_.Charge(1, sizeof(AnimationChannel), place);
     context_.Charge(input.count, sizeof(float), place);
     context_.Charge(values, components * sizeof(float), place);
     channel.times.resize(input.count);
@@ -166,6 +166,7 @@ class AnimationReader {
 
 void ReadAnimations(Context& context, AccessorReader& reader, Scene& scene) {
   const Place list_place(context.place, "animations");
+  context.Charge(context.document.Count("animations"), sizeof(Animation), list_place);
   for (std::size_t a = 0; a < context.document.Count("animations"); ++a) {
     const Place place(list_place, a);
     scene.animations.push_back(AnimationReader(context, reader, scene, context.Object("animations", a), place).Read());

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "base/memory_budget.h"
+
 namespace facet::gltf {
 
 int SetOf(const std::string& semantic, const char* name) {
@@ -107,6 +109,7 @@ std::vector<glm::u16vec4> AttributeSource::Joints(const std::string& semantic) {
   context_.Charge(range_.count, sizeof(glm::u16vec4), place);
   std::vector<glm::u16vec4> out(range_.count);
   if (view.type == ComponentType::U8 || view.type == ComponentType::U16) {
+    const MemoryLease lease(range_.count, 4 * sizeof(std::uint32_t), "reading joints");
     std::vector<std::uint32_t> raw(range_.count * 4);
     reader_.ReadUnsigned(view, range_, 4, raw.data());
     for (std::size_t i = 0; i < raw.size(); ++i) {
@@ -115,6 +118,7 @@ std::vector<glm::u16vec4> AttributeSource::Joints(const std::string& semantic) {
     return out;
   }
   // Old exporters wrote floats and other integers; whatever fits is taken.
+  const MemoryLease lease(range_.count, 4 * sizeof(float), "reading joints");
   std::vector<float> raw(range_.count * 4);
   reader_.ReadFloats(view, range_, 4, raw.data(), place);
   place.Warn("joints are neither unsigned bytes nor unsigned shorts");

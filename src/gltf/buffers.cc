@@ -31,8 +31,10 @@ std::size_t Available(std::size_t size, std::size_t offset, std::size_t length) 
 }  // namespace
 
 BufferStore::BufferStore(Context& context, std::optional<Bytes> bin)
-    : context_(context), bin_(std::move(bin)), buffers_(context.document.Count("buffers")) {
+    : context_(context), bin_(std::move(bin)) {
   const Place buffers_place(context.place, "buffers"), views_place(context.place, "bufferViews");
+  context.Charge(context.document.Count("buffers"), sizeof(Buffer), buffers_place);
+  buffers_.resize(context.document.Count("buffers"));
   for (std::size_t i = 0; i < buffers_.size(); ++i) {
     const Json& object = context.Object("buffers", i);
     const Place place(buffers_place, i);
@@ -40,6 +42,7 @@ BufferStore::BufferStore(Context& context, std::optional<Bytes> bin)
     buffers_[i].declared_length = LenientSize(object, "byteLength", place);
     if (!Find(object, "byteLength")) place.Warn("\"byteLength\" is missing; all that there is counts");
   }
+  context.Charge(context.document.Count("bufferViews"), sizeof(View), views_place);
   views_.resize(context.document.Count("bufferViews"));
   for (std::size_t i = 0; i < views_.size(); ++i) {
     const Place place(views_place, i);
@@ -73,14 +76,12 @@ Bytes BufferStore::Load(std::size_t index) {
     if (!bytes) Fail(uri_place, "is a malformed data URI");
     return *std::move(bytes);
   }
-  const auto path = ResolveRelative(context_.path.parent_path(), *uri, uri_place);
-  if (!path) Fail(uri_place, "is not a relative path", "put the buffer's file beside the glTF file");
+  const std::filesystem::path path = context_.files.Find(*uri, uri_place);
   try {
-    Bytes bytes = ReadWholeFile(*path);
-    context_.report.file_bytes += bytes.size;
-    return bytes;
+    return context_.files.Read(path);
   } catch (const Error& error) {
-    Fail(uri_place, "the file \"" + path->string() + "\" cannot be read: " + error.message(),
+    if (IsFatal(error)) throw;
+    Fail(uri_place, "the file \"" + path.string() + "\" cannot be read: " + error.message(),
          "put the buffer's file beside the glTF file", error.code());
   }
 }
@@ -99,7 +100,7 @@ const Bytes& BufferStore::Whole(std::size_t index) {
     const std::string what =
         "has " + std::to_string(buffer.bytes->size) + " bytes and declares " + std::to_string(*buffer.declared_length);
     const Bytes& bytes = *buffer.bytes;
-    const auto foreign = RecognizeForeign({reinterpret_cast<const char*>(bytes.data), bytes.size});
+    const auto foreign = RecognizeForeign(bytes.Text());
     const std::string kind = foreign ? ": it is " + foreign->what + "; " + foreign->hint : std::string();
     buffer.shortage = "buffers[" + std::to_string(index) + "] " + what + (foreign ? kind : ": fetch the file again");
     const Place list_place(context_.place, "buffers");
@@ -189,14 +190,14 @@ void BufferStore::CheckUnused() {
     const auto uri = LenientString(context_.Object("buffers", i), "uri", place);
     if (!uri) continue;
     const Place uri_place(place, "uri");
-    if (IsDataUri(*uri)) {
-      if (!DecodeDataUri(*uri)) uri_place.Warn("is a malformed data URI, and nothing reads it");
-      continue;
-    }
-    const auto path = ResolveRelative(context_.path.parent_path(), *uri, uri_place);
-    std::error_code ignored;
-    if (path && std::filesystem::is_regular_file(*path, ignored)) continue;
-    uri_place.Warn("the file \"" + *uri + "\" is not there, and nothing reads it");
+    if (IsDataUri(*uri)) continue;
+    context_.Try(false, uri_place, "nothing reads it", [&] {
+      const std::filesystem::path path = context_.files.Find(*uri, uri_place);
+      std::error_code ignored;
+      if (!std::filesystem::is_regular_file(path, ignored)) {
+        Fail(uri_place, "the file \"" + path.string() + "\" is not there");
+      }
+    });
   }
 }
 

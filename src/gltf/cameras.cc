@@ -70,6 +70,8 @@ Camera ReadCamera(const Json& object, const Place& place) {
 
 std::vector<bool> ReadCameras(Context& context, Scene& scene) {
   const Place list_place(context.place, "cameras");
+  context.Charge(context.document.Count("cameras"), sizeof(Camera), list_place);
+  scene.cameras.reserve(context.document.Count("cameras"));
   std::vector<bool> usable;
   for (std::size_t i = 0; i < context.document.Count("cameras"); ++i) {
     const Json& object = context.Object("cameras", i);

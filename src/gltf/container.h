@@ -4,7 +4,7 @@
 #include <optional>
 #include <string_view>
 
-#include "gltf/bytes.h"
+#include "base/input_file.h"
 #include "gltf/place.h"
 
 namespace facet::gltf {

@@ -3,12 +3,12 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "base/bytes_text.h"
 #include "facet/load.h"
-#include "gltf/bytes.h"
 #include "gltf/document.h"
+#include "gltf/files.h"
 
 namespace facet::gltf {
 
@@ -22,7 +22,8 @@ struct Context {
       : path(std::move(file_path)),
         file_name(std::move(shown_name)),
         options(load_options),
-        place(file_name, &warnings) {}
+        place(file_name, &warnings),
+        files(path, options, report) {}
   Context(const Context&) = delete;
   Context& operator=(const Context&) = delete;
 
@@ -40,34 +41,14 @@ struct Context {
     }
   }
 
-  // Counts memory for geometry before it is taken. The bound is the options', and for what many primitives share or no
-  // buffer holds, a multiple of the file's size: a few kilobytes must not unfold to gigabytes. Throws
-  // Error(OutOfMemory).
-  void Charge(std::size_t count, std::size_t size_each, const Place& where) {
-    constexpr std::size_t kSmall = std::size_t(256) << 20, kUnfolding = 1024;
-    const std::size_t unfolded = kSmall + report.file_bytes * kUnfolding;
-    const std::size_t bound = unfolded < options.max_geometry_bytes ? unfolded : options.max_geometry_bytes;
-    if (geometry_bytes > bound || (size_each != 0 && count > (bound - geometry_bytes) / size_each)) {
-      Fail(where, "the geometry needs more memory than the limit of " + BytesText(double(bound)),
-           bound == unfolded ? "so small a file should not unfold so far" : "raise the limit", ErrorCode::OutOfMemory);
-    }
-    geometry_bytes += count * size_each;
-  }
+  // Charges what the scene takes to the memory budget. What many parts of a file share, or no buffer holds, is bounded
+  // by a multiple of the file's size as well: a few kilobytes must not unfold to gigabytes. Throws Error(OutOfMemory).
+  void Charge(std::size_t count, std::size_t size_each, const Place& where);
 
   // Of a list at the root.
   const Json& Object(const char* list, std::size_t index) const { return document.root[list][index]; }
-  bool IsRequired(const std::string& extension) const {
-    for (const auto& use : report.extensions) {
-      if (use.name == extension) return use.required;
-    }
-    return false;
-  }
-  bool IsUsed(const std::string& extension) const {
-    for (const auto& use : report.extensions) {
-      if (use.name == extension) return true;
-    }
-    return false;
-  }
+  bool IsRequired(std::string_view extension) const;
+  bool IsUsed(std::string_view extension) const;
 
   std::filesystem::path path;
   std::string file_name;
@@ -76,8 +57,13 @@ struct Context {
   Place place;
   Document document;
   LoadReport report;
+  FileStore files;
   std::vector<std::vector<std::size_t>> primitives_read;  // by mesh: which of the file's became its primitives
-  std::size_t geometry_bytes = 0;
+
+ private:
+  const ExtensionUse* FindExtension(std::string_view name) const;
+
+  std::size_t charged_ = 0;
 };
 
 }  // namespace facet::gltf

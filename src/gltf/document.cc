@@ -64,6 +64,7 @@ std::string CheckVersion(const Json& root, const Place& place) {
 
 Document ParseDocument(std::string_view json, const Place& place) {
   Document document;
+  document.memory = MemoryLease(JsonMemory(json), 1, "JSON", place.Full());
   document.root = ParseJson(json, place);
   CheckObject(document.root, place);
   document.version = CheckVersion(document.root, place);

@@ -5,12 +5,14 @@
 #include <string>
 #include <string_view>
 
+#include "base/memory_budget.h"
 #include "gltf/json_fields.h"
 
 namespace facet::gltf {
 
 // The lists at the root hold objects; what these hold is checked where it is read.
 struct Document {
+  MemoryLease memory;  // for as long as the values live
   Json root;
   std::string version;  // asset.version, "2.0" or a later one that can be read as 2.0
 
@@ -20,7 +22,7 @@ struct Document {
   }
 };
 
-// Throws Error(InvalidInput), Error(Unsupported) for another version of glTF.
+// Throws Error: InvalidInput, Unsupported (another version of glTF), OutOfMemory.
 Document ParseDocument(std::string_view json, const Place& place);
 
 }  // namespace facet::gltf

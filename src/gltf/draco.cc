@@ -7,13 +7,18 @@
 #pragma GCC diagnostic ignored "-Wunused-parameter"
 #include <draco/compression/mesh/mesh_edgebreaker_decoder.h>
 #include <draco/compression/mesh/mesh_sequential_decoder.h>
+#include <draco/core/varint_decoding.h>
+#include <draco/metadata/metadata_decoder.h>
 #pragma GCC diagnostic pop
 
 #include <cstring>
 #include <memory>
 #include <new>
 #include <optional>
+#include <utility>
+#include <vector>
 
+#include "base/memory_budget.h"
 #include "gltf/draco_transforms.h"
 
 namespace facet::gltf {
@@ -32,47 +37,79 @@ std::optional<ComponentType> ComponentOf(draco::DataType type) {
   }
 }
 
-// Draco's LEB128.
-std::optional<std::uint64_t> ReadVarint(const Bytes& bytes, std::size_t& at) {
-  std::uint64_t value = 0;
-  for (int shift = 0; shift < 63 && at < bytes.size; shift += 7) {
-    const auto byte = std::to_integer<std::uint64_t>(bytes.data[at++]);
-    value |= (byte & 0x7F) << shift;
-    if (!(byte & 0x80)) return value;
+// What the connectivity's header claims. Draco takes memory for that before it looks at the data.
+struct Claims {
+  std::uint32_t faces = 0;
+  std::uint8_t attribute_decoders = 0;  // each with connectivity of its own
+};
+
+// Reads ahead; nothing where the data is cut short. Source: Google, "Draco bitstream specification" (2.2), sections
+// "Header", "Metadata" and "Connectivity", and for what older versions wrote, the decoder of Draco 1.5.
+std::optional<Claims> ReadClaims(const draco::DracoHeader& header, draco::DecoderBuffer buffer) {
+  const unsigned version = header.version_major * 256u + header.version_minor;
+  buffer.set_bitstream_version(static_cast<std::uint16_t>(version));
+  if (version >= 0x0103 && (header.flags & METADATA_FLAG_MASK) != 0) {
+    draco::GeometryMetadata ignored;
+    if (!draco::MetadataDecoder().DecodeGeometryMetadata(&buffer, &ignored)) return std::nullopt;
   }
-  return std::nullopt;
+  const auto read = [&](std::uint32_t& number, bool fixed_width) {
+    return fixed_width ? buffer.Decode(&number) : draco::DecodeVarint(&number, &buffer);
+  };
+  Claims claims;
+  std::uint32_t ignored = 0;
+  if (header.encoder_method == draco::MESH_SEQUENTIAL_ENCODING) {
+    if (!read(claims.faces, version < 0x0202)) return std::nullopt;
+    return claims;
+  }
+  std::uint8_t traversal = 0;
+  const bool is_read = buffer.Decode(&traversal) && (version >= 0x0202 || read(ignored, version < 0x0200)) &&
+                       read(ignored, version < 0x0200) && read(claims.faces, version < 0x0200) &&
+                       buffer.Decode(&claims.attribute_decoders);
+  if (!is_read) return std::nullopt;
+  return claims;
 }
 
-// Draco takes memory for as many faces as the header claims before it looks at the data, so the claim is read first.
-// Source: Google, "Draco bitstream specification" (2.2), sections "Header" and "Connectivity".
-void CheckClaims(const Bytes& packed, const Place& place) {
-  constexpr std::size_t kHeader = 11;
-  constexpr unsigned kMetadata = 0x8000;
+// Throws Error(InvalidInput) where the data cannot hold what it claims. The lease is what decoding it takes.
+MemoryLease CheckClaims(const draco::DracoHeader& header, const draco::DecoderBuffer& rest, const Place& place) {
   constexpr std::uint64_t kFacesPerByte = 4096;  // far beyond what its entropy coder reaches on real meshes
-  if (packed.size < kHeader || std::memcmp(packed.data, "DRACO", 5) != 0) Fail(place, "is not Draco data");
-  const auto byte = [&](std::size_t i) { return std::to_integer<unsigned>(packed.data[i]); };
-  const unsigned version = byte(5) * 256 + byte(6), method = byte(8), flags = byte(9) + byte(10) * 256;
-  constexpr unsigned kVersion22 = 2 * 256 + 2;
-  if (version < kVersion22 || (flags & kMetadata)) return;  // older or annotated: left to Draco's own checks
-  std::size_t at = kHeader;
-  if (method == 1) {  // edgebreaker: traversal type, number of encoded vertices, number of faces
-    ++at;
-    if (!ReadVarint(packed, at)) Fail(place, "Draco data is cut short");
+  const std::optional<Claims> claims = ReadClaims(header, rest);
+  if (!claims) Fail(place, "Draco data is cut short");
+  const auto bytes = static_cast<std::uint64_t>(rest.remaining_size());
+  if (claims->faces / kFacesPerByte > bytes) {
+    Fail(place, std::to_string(bytes) + " bytes of Draco data claim " + std::to_string(claims->faces) + " triangles");
   }
-  const auto faces = ReadVarint(packed, at);
-  if (!faces) Fail(place, "Draco data is cut short");
-  if (*faces / kFacesPerByte > packed.size) {
-    Fail(place, std::to_string(packed.size) + " bytes of Draco data claim " + std::to_string(*faces) + " triangles");
-  }
+  // Measured as the most that the decoder took, for meshes and for data that claims too much.
+  constexpr std::uint64_t kPerFace = 128, kPerFaceAndDecoder = 48;
+  return MemoryLease(claims->faces, kPerFace + kPerFaceAndDecoder * claims->attribute_decoders, "Draco data",
+                     place.Full());
 }
+
+// Charges attributes when the decoder announces them: it takes memory for as many points as are claimed.
+class ChargedMesh final : public draco::Mesh {
+ public:
+  explicit ChargedMesh(std::string where) : where_(std::move(where)) {}
+
+  void SetAttribute(int id, std::unique_ptr<draco::PointAttribute> attribute) override {
+    // Its values, the integers that they are made from, the order of the points and a value's index for each.
+    const auto components = static_cast<std::uint64_t>(attribute->num_components());
+    const auto size = static_cast<std::uint64_t>(draco::DataTypeLength(attribute->data_type()));
+    leases_.emplace_back(num_points(), components * (size + sizeof(std::int32_t)) + 16, "Draco data", where_);
+    draco::Mesh::SetAttribute(id, std::move(attribute));
+  }
+
+ private:
+  std::string where_;
+  std::vector<MemoryLease> leases_;
+};
 
 // What draco::Decoder does, with the decoder at hand afterwards: it holds the integers that the floats were made from.
-draco::Status DecodeMesh(const Bytes& packed, draco::Mesh& mesh) {
+draco::Status DecodeMesh(const Bytes& packed, const Place& place, draco::Mesh& mesh) {
   draco::DecoderBuffer buffer;
   buffer.Init(reinterpret_cast<const char*>(packed.data), packed.size);
   draco::DecoderBuffer start = buffer;
   draco::DracoHeader header;
   if (const draco::Status status = draco::PointCloudDecoder::DecodeHeader(&start, &header); !status.ok()) return status;
+  const MemoryLease lease = CheckClaims(header, start, place);
   std::unique_ptr<draco::MeshDecoder> decoder;
   if (header.encoder_method == draco::MESH_EDGEBREAKER_ENCODING) {
     decoder = std::make_unique<draco::MeshEdgebreakerDecoder>();
@@ -126,11 +163,9 @@ DracoMesh DecodeDraco(Context& context, BufferStore& buffers, AccessorReader& re
   const Json& packed_attributes = RequireObject(extension, "attributes", place);
   const Bytes& packed =
       buffers.Read(RequireIndex(extension, "bufferView", context.document.Count("bufferViews"), "bufferViews", place));
-  CheckClaims(packed, place);
-
-  const auto mesh = std::make_unique<draco::Mesh>();
+  const auto mesh = std::make_unique<ChargedMesh>(place.Full());
   try {
-    const draco::Status status = DecodeMesh(packed, *mesh);
+    const draco::Status status = DecodeMesh(packed, place, *mesh);
     if (!status.ok()) Fail(place, "Draco data is damaged: " + status.error_msg_string(), "pack the file again");
   } catch (const std::bad_alloc&) {
     Fail(place, "Draco data claims more than there is memory", "pack the file again", ErrorCode::OutOfMemory);

@@ -16,6 +16,7 @@ bool IsSupported(const std::string& extension) {
 }
 
 void ReadExtensions(Context& context) {
+  constexpr std::size_t kMostNamed = 20;
   std::map<std::string, bool> required;
   for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
     const Json* names = LenientArray(context.document.root, list, context.place);
@@ -30,14 +31,16 @@ void ReadExtensions(Context& context) {
     }
   }
   std::string missing;
+  std::size_t missing_count = 0;
   for (const auto& [name, is_required] : required) {
     const bool supported = IsSupported(name);
     context.report.extensions.push_back({name, is_required, supported});
     if (supported) continue;
     Place(context.place, is_required ? "extensionsRequired" : "extensionsUsed")
         .Warn("ignored: " + name + " is not supported");
-    if (is_required) missing += (missing.empty() ? "" : ", ") + name;
+    if (is_required && ++missing_count <= kMostNamed) missing += (missing.empty() ? "" : ", ") + name;
   }
+  if (missing_count > kMostNamed) missing += " and " + std::to_string(missing_count - kMostNamed) + " more";
   if (!missing.empty() && !context.options.ignore_required_extensions) {
     Fail(Place(context.place, "extensionsRequired"), "the file requires " + missing + ", which facet does not support",
          "export it without, or ignore required extensions", ErrorCode::Unsupported);

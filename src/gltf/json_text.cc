@@ -7,30 +7,14 @@
 #include <limits>
 #include <string>
 
+#include "base/json_depth.h"
+#include "base/memory_budget.h"
 #include "gltf/extensions.h"
 
 namespace facet::gltf {
 namespace {
 
 constexpr std::string_view kReplacement = "\xEF\xBF\xBD";  // U+FFFD
-
-void CheckDepth(std::string_view text, const Place& place) {
-  int depth = 0;
-  bool in_string = false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    if (in_string) {
-      if (c == '\\') ++i;
-      if (c == '"') in_string = false;
-    } else if (c == '"') {
-      in_string = true;
-    } else if (c == '[' || c == '{') {
-      if (++depth > kMaxDepth) Fail(place, "JSON is nested deeper than " + std::to_string(kMaxDepth) + " levels");
-    } else if (c == ']' || c == '}') {
-      --depth;
-    }
-  }
-}
 
 // How many bytes the UTF-8 character at `at` has; 0 where there is none.
 // Source: The Unicode Standard 15.0 (2022), table 3-7, "Well-Formed UTF-8 Byte Sequences".
@@ -169,15 +153,43 @@ void Normalise(Json& value, const Place& place, bool are_extensions = false) {
 
 }  // namespace
 
+std::uint64_t JsonMemory(std::string_view text) {
+  // With the allocator's own bytes. An array grows by doubling, so that each value is there thrice for a moment. Of a
+  // string, the parser has a copy while it reads it.
+  constexpr std::uint64_t kValue = 3 * sizeof(Json), kMember = 2 * sizeof(std::string) + sizeof(Json) + 32;
+  constexpr std::uint64_t kObject = 64, kArray = 48, kQuote = 32;
+  std::uint64_t bytes = kValue + 2 * std::uint64_t(text.size());
+  bool in_string = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '"') bytes += kQuote;
+    if (in_string) {
+      if (c == '\\') ++i;
+      if (c == '"') in_string = false;
+      continue;
+    }
+    if (c == '"') in_string = true;
+    if (c == ',') bytes += kValue;
+    if (c == ':') bytes += kMember;
+    if (c == '{') bytes += kObject + kValue;
+    if (c == '[') bytes += kArray + kValue;
+  }
+  return bytes;
+}
+
 Json ParseJson(std::string_view text, const Place& place) {
-  CheckDepth(text, place);
+  if (IsJsonDeeperThan(text, kMaxJsonDepth)) {
+    Fail(place, "JSON is nested deeper than " + std::to_string(kMaxJsonDepth) + " levels");
+  }
   // GLB pads the chunk with spaces, and some exporters with zeros.
   while (!text.empty() && text.back() == '\0') text.remove_suffix(1);
   constexpr const char* kNotUtf8 = "is not UTF-8; what cannot be read of it became U+FFFD";
   constexpr const char* kTooLarge = "is beyond the range of numbers; the largest is read";
   std::string valid, finite;
+  MemoryLease for_valid, for_finite;
   const std::size_t bad_byte = FirstBadByte(text);
   if (bad_byte < text.size()) {
+    for_valid = MemoryLease(text.size(), 7, "JSON");
     valid = WithValidUtf8(text);
     text = valid;
   }
@@ -186,6 +198,7 @@ Json ParseJson(std::string_view text, const Place& place) {
     try {
       root = Json::parse(text.begin(), text.end());
     } catch (const Json::out_of_range&) {
+      for_finite = MemoryLease(text.size(), 12, "JSON");
       finite = WithFiniteNumbers(text);
       root = Json::parse(finite.begin(), finite.end());
     }

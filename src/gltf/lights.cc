@@ -77,6 +77,8 @@ void ReadLights(Context& context, Scene& scene) {
   const Json* list = LenientArray(*extension, "lights", extension_place);
   if (!list) return;
   const Place list_place(extension_place, "lights");
+  context.Charge(list->size(), sizeof(Light), list_place);
+  scene.lights.reserve(list->size());
   for (const Json& object : *list) {
     const Place place(list_place, scene.lights.size());
     scene.lights.push_back(ReadLight(LenientElement(object, place), place));

@@ -4,6 +4,8 @@
 #include <new>
 
 #include "base/float_environment.h"
+#include "base/input_file.h"
+#include "base/memory_budget.h"
 #include "gltf/animation.h"
 #include "gltf/container.h"
 #include "gltf/extensions.h"
@@ -25,6 +27,8 @@ void ReadVariants(Context& context, Scene& scene) {
   const Json* list = LenientArray(*extension, "variants", extension_place);
   if (!list) return;
   const Place list_place(extension_place, "variants");
+  context.Charge(list->size(), sizeof(std::string), list_place);
+  scene.variants.reserve(list->size());
   for (const Json& variant : *list) {
     const Place place(list_place, scene.variants.size());
     scene.variants.push_back(NameOf(LenientElement(variant, place), place));
@@ -36,6 +40,8 @@ void ReadPrimitives(Context& context, BufferStore& buffers, AccessorReader& read
                     const MeshUse& use, const Place& place, Mesh& mesh, std::vector<std::size_t>& read) {
   const Json& primitives = RequireArray(object, "primitives", place);
   const Place list_place(place, "primitives");
+  context.Charge(primitives.size(), sizeof(Primitive) + sizeof(std::size_t), list_place);
+  mesh.primitives.reserve(primitives.size());
   for (std::size_t p = 0; p < primitives.size(); ++p) {
     const Place primitive_place(list_place, p);
     if (IsAbsent(primitives[p], primitive_place)) continue;
@@ -51,6 +57,8 @@ void ReadPrimitives(Context& context, BufferStore& buffers, AccessorReader& read
 
 void ReadMeshes(Context& context, BufferStore& buffers, AccessorReader& reader, const Shown& shown, Scene& scene) {
   const Place list_place(context.place, "meshes");
+  context.Charge(shown.meshes.size(), sizeof(Mesh) + sizeof(context.primitives_read[0]), list_place);
+  scene.meshes.reserve(shown.meshes.size());
   context.primitives_read.resize(shown.meshes.size());
   for (std::size_t m = 0; m < shown.meshes.size(); ++m) {
     const Json& object = context.Object("meshes", m);
@@ -62,10 +70,10 @@ void ReadMeshes(Context& context, BufferStore& buffers, AccessorReader& reader, 
     });
     std::size_t most_targets = 0;
     for (const Primitive& primitive : mesh.primitives) most_targets = std::max(most_targets, primitive.targets.size());
-    for (Primitive& primitive : mesh.primitives) {
+    for (const Primitive& primitive : mesh.primitives) {
       if (primitive.targets.size() == most_targets) continue;
       place.Warn("its primitives do not have the same number of morph targets");
-      primitive.targets.resize(most_targets);
+      break;
     }
     mesh.weights = LenientFloats(object, "weights", place);
     if (!mesh.weights.empty() && mesh.weights.size() != most_targets) {
@@ -73,6 +81,7 @@ void ReadMeshes(Context& context, BufferStore& buffers, AccessorReader& reader, 
           .Warn("has " + std::to_string(mesh.weights.size()) + " numbers for " + std::to_string(most_targets) +
                 " morph targets");
     }
+    context.Charge(most_targets, sizeof(float), place);
     mesh.weights.resize(most_targets, 0.0f);
     scene.meshes.push_back(std::move(mesh));
   }
@@ -87,13 +96,17 @@ void ReadAsset(Context& context) {
 }
 
 LoadedScene Load(const std::filesystem::path& path, const LoadOptions& options) {
+  MemoryBudget budget(options.memory_limit);
+  const MemoryBudget::Scope scope(budget);
   Context context(path, path.filename().string(), options);
-  const Bytes file = ReadWholeFile(path);
+  const Bytes file = ReadFile(path, {.map = options.map_files});
   context.report.file_bytes = file.size;
+  context.report.files.push_back(path);
   const Container container = OpenContainer(file, context.place);
   context.document = ParseDocument(container.json, context.place);
   ReadAsset(context);
   ReadExtensions(context);
+  context.Charge(container.json.size(), 1, context.place);  // names
 
   LoadedScene loaded;
   Scene& scene = loaded.scene;
@@ -129,7 +142,8 @@ LoadedScene LoadGltf(const std::filesystem::path& path, const LoadOptions& optio
   try {
     return gltf::Load(path, options);
   } catch (const std::bad_alloc&) {
-    throw Error(ErrorCode::OutOfMemory, "there is not enough memory to load the file", path.filename().string());
+    throw Error(ErrorCode::OutOfMemory, "there is not enough memory to load the file", path.filename().string(),
+                "set a memory limit: then the line says what takes so much");
   }
 }
 

@@ -114,6 +114,8 @@ class MaterialReader {
 
 void ReadMaterials(Context& context, Scene& scene) {
   const Place list_place(context.place, "materials");
+  context.Charge(context.document.Count("materials"), sizeof(Material), list_place);
+  scene.materials.reserve(context.document.Count("materials"));
   for (std::size_t i = 0; i < context.document.Count("materials"); ++i) {
     const Place place(list_place, i);
     scene.materials.push_back(MaterialReader(context.document, context.Object("materials", i), place).Read());

@@ -1,7 +1,7 @@
 // EXT_meshopt_compression: buffer views packed by meshoptimizer.
 #pragma once
 
-#include "gltf/bytes.h"
+#include "base/input_file.h"
 #include "gltf/json_fields.h"
 
 namespace facet::gltf {

@@ -5,6 +5,8 @@
 #include <string>
 #include <utility>
 
+#include "base/memory_budget.h"
+
 namespace facet::gltf {
 namespace {
 
@@ -24,6 +26,7 @@ class TreeReader {
 
   std::vector<bool> Read() {
     scene_.nodes.resize(problems_.size());
+    scene_.scenes.reserve(scene_problems_.size());
     for (std::size_t i = 0; i < scene_.nodes.size(); ++i) ReadNode(i);
     for (std::size_t i = 0; i < scene_problems_.size(); ++i) ReadScene(i);
     scene_.default_scene =
@@ -263,8 +266,13 @@ void MarkMesh(const Context& context, const Json& node, const Place& place, Show
 
 Shown ReadNodeTree(Context& context, Scene& scene) {
   Shown shown;
+  context.Charge(context.document.Count("nodes"), sizeof(Node), Place(context.place, "nodes"));
+  context.Charge(context.document.Count("scenes"), sizeof(SceneRoots), Place(context.place, "scenes"));
+  const MemoryLease lease(context.document.Count("nodes") + context.document.Count("scenes"), 2 * sizeof(Error),
+                          "the node tree");
   shown.nodes = TreeReader(context, scene).Read();
   shown.skins.resize(context.document.Count("skins"), false);
+  context.Charge(context.document.Count("meshes"), sizeof(MeshUse), Place(context.place, "meshes"));
   shown.meshes.resize(context.document.Count("meshes"));
   const Place list_place(context.place, "nodes");
   for (std::size_t i = 0; i < shown.nodes.size(); ++i) {

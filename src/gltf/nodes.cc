@@ -4,8 +4,10 @@
 #include <cmath>
 #include <glm/gtc/type_ptr.hpp>
 #include <limits>
+#include <optional>
 #include <utility>
 
+#include "base/memory_budget.h"
 
 namespace facet::gltf {
 namespace {
@@ -58,7 +60,7 @@ void ReadInstances(Context& context, AccessorReader& reader, const Json& object,
         IndexAt(*attributes, semantic, context.document.Count("accessors"), "accessors", attributes_place);
     if (accessor < 0) return;
     const Place attribute_place(attributes_place, semantic);
-    const AccessorView view = reader.View(accessor);
+    const AccessorView& view = reader.View(accessor);
     if (view.is_matrix || view.components != components) {
       Fail(attribute_place, "does not have " + std::to_string(components) + " components");
     }
@@ -68,6 +70,7 @@ void ReadInstances(Context& context, AccessorReader& reader, const Json& object,
       instances.resize(view.count);
     }
     if (view.count != instances.size()) Fail(attribute_place, "does not have as many elements as the others");
+    const MemoryLease lease(view.count, static_cast<std::size_t>(components) * sizeof(float), "reading instances");
     std::vector<float> values(view.count * static_cast<std::size_t>(components));
     reader.ReadFloats(view, {0, view.count}, components, values.data(), attribute_place);
     for (std::size_t i = 0; i < view.count; ++i) {
@@ -87,62 +90,53 @@ void ReadInstances(Context& context, AccessorReader& reader, const Json& object,
   node.instances = std::move(instances);
 }
 
-std::size_t TargetCount(const Mesh& mesh) {
-  return mesh.primitives.empty() ? 0 : mesh.primitives.front().targets.size();
+constexpr std::size_t kNoSkin = std::numeric_limits<std::size_t>::max();
+
+// Of a mesh whose nodes have skins.
+struct SkinnedMesh {
+  bool has_joints = false;
+  int largest = -1;                         // joint that has a weight
+  std::size_t largest_in = 0;               // a primitive that uses it
+  std::size_t fewest = kNoSkin;             // joints of the skins
+};
+
+template <class Visit>
+void ForEachJoint(Primitive& primitive, const Visit& visit) {
+  for (std::size_t set = 0; set < primitive.joints.size(); ++set) {
+    for (std::size_t v = 0; v < primitive.joints[set].size(); ++v) {
+      for (int c = 0; c < 4; ++c) visit(primitive.joints[set][v][c], primitive.weights[set][v][c]);
+    }
+  }
 }
 
-// Joint indices that the skin does not have are an error, unless their weight is zero: those are cleared. Warns of
-// vertices that no joint has a weight for.
-void CheckJoints(Context& context, std::size_t mesh, std::size_t joint_count, int skin, Scene& scene) {
-  const Place meshes_place(context.place, "meshes");
-  const Place mesh_place(meshes_place, mesh), primitives_place(mesh_place, "primitives");
-  std::vector<Primitive>& primitives = scene.meshes[mesh].primitives;
-  for (std::size_t p = 0; p < primitives.size(); ++p) {
-    Primitive& primitive = primitives[p];
-    const Place place(primitives_place, context.primitives_read[mesh][p]);
-    for (std::size_t set = 0; set < primitive.joints.size(); ++set) {
-      for (std::size_t v = 0; v < primitive.joints[set].size(); ++v) {
-        for (int c = 0; c < 4; ++c) {
-          std::uint16_t& joint = primitive.joints[set][v][c];
-          if (joint < joint_count) continue;
-          if (primitive.weights[set][v][c] > 0.0f) {
-            Fail(place, "joint " + std::to_string(joint) + " is not one of the " + std::to_string(joint_count) +
-                            " of skins[" + std::to_string(skin) + "]");
-          }
-          joint = 0;
-        }
-      }
-    }
+SkinnedMesh Survey(Mesh& mesh) {
+  SkinnedMesh survey;
+  for (std::size_t p = 0; p < mesh.primitives.size(); ++p) {
+    survey.has_joints = survey.has_joints || !mesh.primitives[p].joints.empty();
+    const int before = survey.largest;
+    ForEachJoint(mesh.primitives[p], [&](std::uint16_t joint, float weight) {
+      if (weight > 0.0f && joint > survey.largest) survey.largest = joint;
+    });
+    if (survey.largest > before) survey.largest_in = p;
+  }
+  return survey;
+}
+
+// Joints that a skin does not have, and no vertex follows, become the first. Warns of vertices that follow none.
+void ClearUnusedJoints(const SkinnedMesh& survey, const std::vector<std::size_t>& primitives_read,
+                       const Place& primitives_place, Mesh& mesh) {
+  for (std::size_t p = 0; p < mesh.primitives.size(); ++p) {
+    Primitive& primitive = mesh.primitives[p];
+    ForEachJoint(primitive, [&](std::uint16_t& joint, float) { joint = joint < survey.fewest ? joint : 0; });
     std::size_t loose = 0;
     for (std::size_t v = 0; v < primitive.positions.size() && !primitive.joints.empty(); ++v) {
       loose += std::all_of(primitive.weights.begin(), primitive.weights.end(),
                            [v](const std::vector<glm::vec4>& set) { return set[v] == glm::vec4(0.0f); });
     }
-    if (loose) place.Warn(std::to_string(loose) + " vertices without weights follow the joint of their first slot");
+    if (loose == 0) continue;
+    Place(primitives_place, primitives_read[p])
+        .Warn(std::to_string(loose) + " vertices without weights follow the joint of their first slot");
   }
-}
-
-// `checked` is, for each mesh, the fewest joints that it was checked against: many nodes may share one mesh.
-void AttachSkin(Context& context, Scene& scene, Node& node, std::vector<std::size_t>& checked, const Place& place) {
-  if (node.skin < 0) return;
-  bool skinned = false;
-  if (node.mesh >= 0) {
-    for (const Primitive& primitive : scene.meshes[static_cast<std::size_t>(node.mesh)].primitives) {
-      skinned = skinned || !primitive.joints.empty();
-    }
-  }
-  const int skin = std::exchange(node.skin, -1);
-  const std::size_t joint_count = scene.skins[static_cast<std::size_t>(skin)].joints.size();
-  if (!skinned || joint_count == 0) {
-    place.Warn("ignored: a skin for what has no joints");
-    return;
-  }
-  std::size_t& fewest = checked[static_cast<std::size_t>(node.mesh)];
-  if (joint_count < fewest) {
-    CheckJoints(context, static_cast<std::size_t>(node.mesh), joint_count, skin, scene);
-    fewest = joint_count;
-  }
-  node.skin = skin;
 }
 
 class NodeReader {
@@ -152,7 +146,7 @@ class NodeReader {
         reader_(reader),
         usable_cameras_(usable_cameras),
         scene_(scene),
-        checked_(scene.meshes.size(), std::numeric_limits<std::size_t>::max()) {}
+        skinned_(scene.meshes.size()) {}
 
   // Each part by itself: where the node is not shown, the others stay.
   void Read(std::size_t index, bool shown, const Place& place) {
@@ -162,7 +156,7 @@ class NodeReader {
     part("its transform is ignored", [&] { ReadTransform(object, node, place); });
     part("its mesh is ignored", [&] { node.mesh = IndexAt(object, "mesh", scene_.meshes.size(), "meshes", place); });
     part("its skin is ignored", [&] { node.skin = IndexAt(object, "skin", scene_.skins.size(), "skins", place); });
-    part("its skin is ignored", [&] { AttachSkin(context_, scene_, node, checked_, Place(place, "skin")); });
+    part("its skin is ignored", [&] { AttachSkin(node, Place(place, "skin")); });
     part("its instances are ignored", [&] { ReadInstances(context_, reader_, object, node, place); });
     node.camera = LenientIndex(object, "camera", scene_.cameras.size(), "cameras", place);
     if (node.camera >= 0 && !usable_cameras_[static_cast<std::size_t>(node.camera)]) node.camera = -1;
@@ -170,7 +164,44 @@ class NodeReader {
     ReadWeights(object, node, place);
   }
 
+  void ClearUnusedJoints() {
+    const Place meshes_place(context_.place, "meshes");
+    for (std::size_t m = 0; m < skinned_.size(); ++m) {
+      if (!skinned_[m] || skinned_[m]->fewest == kNoSkin) continue;
+      const Place mesh_place(meshes_place, m);
+      gltf::ClearUnusedJoints(*skinned_[m], context_.primitives_read[m], Place(mesh_place, "primitives"),
+                              scene_.meshes[m]);
+    }
+  }
+
  private:
+  // A joint that has a weight and that the skin does not have is an error.
+  void AttachSkin(Node& node, const Place& place) {
+    if (node.skin < 0) return;
+    const int skin = std::exchange(node.skin, -1);
+    const std::size_t joint_count = scene_.skins[static_cast<std::size_t>(skin)].joints.size();
+    SkinnedMesh* mesh = nullptr;
+    if (node.mesh >= 0) {
+      const auto m = static_cast<std::size_t>(node.mesh);
+      if (!skinned_[m]) skinned_[m] = Survey(scene_.meshes[m]);
+      mesh = &*skinned_[m];
+    }
+    if (mesh == nullptr || !mesh->has_joints || joint_count == 0) {
+      place.Warn("ignored: a skin for what has no joints");
+      return;
+    }
+    if (mesh->largest >= 0 && static_cast<std::size_t>(mesh->largest) >= joint_count) {
+      const auto m = static_cast<std::size_t>(node.mesh);
+      const Place meshes_place(context_.place, "meshes");
+      const Place mesh_place(meshes_place, m), primitives_place(mesh_place, "primitives");
+      Fail(Place(primitives_place, context_.primitives_read[m][mesh->largest_in]),
+           "joint " + std::to_string(mesh->largest) + " is not one of the " + std::to_string(joint_count) +
+               " of skins[" + std::to_string(skin) + "]");
+    }
+    mesh->fewest = std::min(mesh->fewest, joint_count);
+    node.skin = skin;
+  }
+
   void ReadLight(const Json& object, Node& node, const Place& place) const {
     constexpr const char* kLights = "KHR_lights_punctual";
     const Json* extension = ExtensionOf(object, kLights, place);
@@ -184,19 +215,19 @@ class NodeReader {
   void ReadWeights(const Json& object, Node& node, const Place& place) const {
     node.weights = LenientFloats(object, "weights", place);
     if (node.weights.empty()) return;
-    const std::size_t targets = node.mesh >= 0 ? TargetCount(scene_.meshes[static_cast<std::size_t>(node.mesh)]) : 0;
+    const std::size_t targets = node.mesh >= 0 ? scene_.meshes[static_cast<std::size_t>(node.mesh)].weights.size() : 0;
     if (node.weights.size() == targets) return;
     Place(place, "weights")
         .Warn("has " + std::to_string(node.weights.size()) + " numbers for " + std::to_string(targets) +
               " morph targets");
-    node.weights.resize(targets, 0.0f);
+    if (node.weights.size() > targets) node.weights.resize(targets);  // those that are missing are zero
   }
 
   Context& context_;
   AccessorReader& reader_;
   const std::vector<bool>& usable_cameras_;
   Scene& scene_;
-  std::vector<std::size_t> checked_;
+  std::vector<std::optional<SkinnedMesh>> skinned_;  // by mesh
 };
 
 }  // namespace
@@ -206,6 +237,7 @@ void ReadNodes(Context& context, AccessorReader& reader, const Shown& shown, con
   const Place list_place(context.place, "nodes");
   NodeReader nodes(context, reader, usable_cameras, scene);
   for (std::size_t i = 0; i < scene.nodes.size(); ++i) nodes.Read(i, shown.nodes[i], Place(list_place, i));
+  nodes.ClearUnusedJoints();
 }
 
 }  // namespace facet::gltf

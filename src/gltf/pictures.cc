@@ -4,6 +4,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/memory_budget.h"
 #include "gltf/extensions.h"
 #include "gltf/recognize.h"
 #include "gltf/uri.h"
@@ -21,24 +22,25 @@ void RefuseForeign(std::span<const std::byte> bytes, const std::string& name) {
   throw Error(ErrorCode::InvalidInput, "not a picture, but " + foreign->what, name, foreign->hint);
 }
 
-Image DecodeAny(std::span<const std::byte> bytes, const std::string& name) {
+Image DecodeTexture(std::span<const std::byte> bytes, const std::string& name) {
   if (!ProbeImage(bytes)) RefuseForeign(bytes, name);
-  return DecodeImage(bytes, name);
+  return DecodeImage(bytes, name, ImageFormats::Gltf);
 }
 
-void DecodeAnyRows(std::span<const std::byte> bytes, const std::string& name, const RowReceiver& receive) {
+void DecodeTextureRows(std::span<const std::byte> bytes, const std::string& name, const RowReceiver& receive) {
   if (!ProbeImage(bytes)) RefuseForeign(bytes, name);
-  DecodeImageRows(bytes, name, receive);
+  DecodeImageRows(bytes, name, receive, ImageFormats::Gltf);
 }
 
 // A picture in memory: a slice of the file, or of a data URI's bytes.
 class EncodedImage final : public ImageSource {
  public:
   EncodedImage(Bytes bytes, std::string name) : bytes_(std::move(bytes)), name_(std::move(name)) {}
-  Image Decode() const override { return DecodeAny(bytes_.Span(), name_); }
-  void DecodeRows(const RowReceiver& receive) const override { DecodeAnyRows(bytes_.Span(), name_, receive); }
+  Image Decode() const override { return DecodeTexture(bytes_.Span(), name_); }
+  void DecodeRows(const RowReceiver& receive) const override { DecodeTextureRows(bytes_.Span(), name_, receive); }
   std::string Name() const override { return name_; }
   std::optional<ImageHeader> Header() const override { return ProbeImage(bytes_.Span()); }
+  std::size_t BytesHeld() const override { return bytes_.size; }
 
  private:
   Bytes bytes_;
@@ -49,14 +51,29 @@ class EncodedImage final : public ImageSource {
 class ImageFile final : public ImageSource {
  public:
   explicit ImageFile(std::filesystem::path path) : path_(std::move(path)) {}
-  Image Decode() const override { return DecodeAny(ReadWholeFile(path_).Span(), Name()); }
+  Image Decode() const override {
+    const Content content(path_);
+    return DecodeTexture(content.bytes.Span(), Name());
+  }
   void DecodeRows(const RowReceiver& receive) const override {
-    DecodeAnyRows(ReadWholeFile(path_).Span(), Name(), receive);
+    const Content content(path_);
+    DecodeTextureRows(content.bytes.Span(), Name(), receive);
   }
   std::string Name() const override { return path_.string(); }
   std::optional<ImageHeader> Header() const override;
+  bool MayChange() const override { return true; }
 
  private:
+  // Charged for as long as it is needed. Not mapped: it is read once, from its start to its end.
+  struct Content {
+    explicit Content(const std::filesystem::path& path, std::size_t most = std::numeric_limits<std::size_t>::max())
+        : bytes(ReadFile(path, {.regular_only = true, .most = most}, &file_size)),
+          lease(MemoryLease::Adopt(bytes.size, kFilesCharge)) {}
+    std::uintmax_t file_size = 0;
+    Bytes bytes;
+    MemoryLease lease;
+  };
+
   std::filesystem::path path_;
 };
 
@@ -64,13 +81,12 @@ std::optional<ImageHeader> ImageFile::Header() const {
   try {
     // The first piece is enough unless a JPEG's or PNG's colour profile or previews come before what is looked for.
     for (const std::size_t most : {std::size_t(1) << 16, std::numeric_limits<std::size_t>::max()}) {
-      std::uintmax_t file_size = 0;
-      const Bytes start = ReadFileStart(path_, most, &file_size);
-      std::optional<ImageHeader> header = ProbeImage(start.Span());
+      const Content start(path_, most);
+      std::optional<ImageHeader> header = ProbeImage(start.bytes.Span());
       if (!header) return header;
-      header->bytes = static_cast<std::size_t>(file_size);
+      header->bytes = static_cast<std::size_t>(start.file_size);
       const bool known = header->width > 0 && header->height > 0 && header->channels > 0;
-      if (known || start.size >= file_size || most > file_size) return header;
+      if (known || start.bytes.size >= start.file_size) return header;
     }
   } catch (const Error&) {  // Decode() is the one to say so
   }
@@ -103,13 +119,12 @@ std::shared_ptr<const ImageSource> OpenSource(Context& context, BufferStore& buf
     if (!bytes) Fail(place, "the image's data URI is malformed");
     return std::make_shared<EncodedImage>(*std::move(bytes), name);
   }
-  auto path = ResolveRelative(context.path.parent_path(), *uri, Place(place, "uri"));
-  if (!path) Fail(place, "the image's uri \"" + *uri + "\" is not a relative path");
+  std::filesystem::path path = context.files.Find(*uri, Place(place, "uri"));
   std::error_code ignored;
-  if (!std::filesystem::is_regular_file(*path, ignored)) {
-    Fail(place, "the image file \"" + path->string() + "\" does not exist");
+  if (!std::filesystem::is_regular_file(path, ignored)) {
+    Fail(place, "the image file \"" + path.string() + "\" does not exist");
   }
-  return std::make_shared<ImageFile>(*std::move(path));
+  return std::make_shared<ImageFile>(std::move(path));
 }
 
 Wrap WrapOf(int value) {
@@ -155,6 +170,9 @@ void WarnOfNoImage(const Json& object, const Place& place) {
 
 std::vector<bool> ReadImages(Context& context, BufferStore& buffers, Scene& scene) {
   const Place list_place(context.place, "images");
+  constexpr std::size_t kSource = 256;  // an ImageSource with its name
+  context.Charge(context.document.Count("images"), sizeof(SceneImage) + kSource, list_place);
+  scene.images.reserve(context.document.Count("images"));
   std::vector<bool> there;
   for (std::size_t i = 0; i < context.document.Count("images"); ++i) {
     const Json& object = context.Object("images", i);
@@ -177,6 +195,9 @@ std::vector<bool> ReadImages(Context& context, BufferStore& buffers, Scene& scen
 
 void ReadTextures(Context& context, const std::vector<bool>& images, Scene& scene) {
   const Place samplers_place(context.place, "samplers"), textures_place(context.place, "textures");
+  context.Charge(context.document.Count("samplers"), sizeof(Sampler), samplers_place);
+  context.Charge(context.document.Count("textures"), sizeof(Texture), textures_place);
+  scene.textures.reserve(context.document.Count("textures"));
   std::vector<Sampler> samplers;
   for (std::size_t i = 0; i < context.document.Count("samplers"); ++i) {
     samplers.push_back(ReadSampler(context.Object("samplers", i), Place(samplers_place, i)));

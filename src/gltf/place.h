@@ -10,6 +10,10 @@
 
 namespace facet::gltf {
 
+// Names in a file may be as long as the file, and messages repeat them.
+inline constexpr std::size_t kMostOfKey = 100, kMostOfMessage = 1000;
+std::string Shortened(std::string_view text, std::size_t most);
+
 // A step on the way from the file to a value in it. Made on the stack while walking down; refers to its parent.
 class Place {
  public:
@@ -23,7 +27,7 @@ class Place {
     if (!parent_) return {};
     std::string path = parent_->Path();
     if (is_index_) return path + "[" + std::to_string(index_) + "]";
-    return path.empty() ? std::string(key_) : path + "." + std::string(key_);
+    return path.empty() ? Shortened(key_, kMostOfKey) : path + "." + Shortened(key_, kMostOfKey);
   }
   // "scene.glb: accessors[3].bufferView".
   std::string Full() const {
@@ -32,14 +36,14 @@ class Place {
   }
 
   void Warn(const std::string& what) const {
-    if (Warnings* const warnings = Root().warnings_) warnings->Add(Path(), what);
+    if (Warnings* const warnings = Root().warnings_) warnings->Add(Path(), Shortened(what, kMostOfMessage));
   }
   // Warns of `consequence` here, and says why: an error here or elsewhere in the file.
   void Warn(const std::string& consequence, const Error& why) const {
     const std::string here = Full(), file = std::string(Root().key_) + ": ";
     std::string where = why.where() == here ? "" : why.where() + ": ";
     if (where.starts_with(file)) where.erase(0, file.size());
-    Warn(consequence + " (" + where + why.message() + ")");
+    Warn(consequence + " (" + where + why.message() + (why.hint().empty() ? "" : "; " + why.hint()) + ")");
   }
 
  private:
@@ -58,7 +62,7 @@ class Place {
 
 [[noreturn]] inline void Fail(const Place& place, const std::string& message, const std::string& hint = {},
                               ErrorCode code = ErrorCode::InvalidInput) {
-  throw Error(code, message, place.Full(), hint);
+  throw Error(code, Shortened(message, kMostOfMessage), place.Full(), hint);
 }
 
 }  // namespace facet::gltf

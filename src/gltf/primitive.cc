@@ -27,7 +27,7 @@ bool IsTriangles(Topology topology) {
 
 std::vector<std::uint32_t> ReadIndices(Context& context, AccessorReader& reader, int accessor, std::size_t vertex_count,
                                        const Place& place) {
-  const AccessorView view = reader.View(accessor);
+  const AccessorView& view = reader.View(accessor);
   const bool is_unsigned =
       view.type == ComponentType::U8 || view.type == ComponentType::U16 || view.type == ComponentType::U32;
   if (!is_unsigned || view.components != 1) Fail(place, "indices are not unsigned scalars");
@@ -249,6 +249,8 @@ void PrimitiveReader::ReadTargets(std::size_t vertex_count, Range range) {
   const Json* targets = LenientArray(object_, "targets", place_);
   if (!targets) return;
   const Place targets_place(place_, "targets");
+  context_.Charge(targets->size(), sizeof(MorphTarget), targets_place);
+  out_.targets.reserve(targets->size());
   for (std::size_t t = 0; t < targets->size(); ++t) {
     const Place place(targets_place, t);
     const bool is_needed = t < use_.moving_targets.size() && use_.moving_targets[t];
@@ -293,6 +295,7 @@ std::vector<int> PrimitiveReader::ReadVariantMaterials() {
   const Place variants_place(extensions_place, kVariants);
   const Json* mappings = LenientArray(*extension, "mappings", variants_place);
   if (!mappings || variant_count == 0) return {};
+  context_.Charge(variant_count, sizeof(int), variants_place);
   std::vector<int> materials(variant_count, -1);
   const Place mappings_place(variants_place, "mappings");
   for (std::size_t i = 0; i < mappings->size(); ++i) {

@@ -9,13 +9,14 @@ namespace {
 void ReadSkin(Context& context, AccessorReader& reader, const Json& object, Skin& skin, const Place& place) {
   const Json& joints = RequireArray(object, "joints", place);
   const Place joints_place(place, "joints");
+  context.Charge(joints.size(), sizeof(int), joints_place);
   for (std::size_t k = 0; k < joints.size(); ++k) {
     skin.joints.push_back(AsIndex(joints[k], context.document.Count("nodes"), "nodes", Place(joints_place, k)));
   }
   const int accessor = IndexAt(object, "inverseBindMatrices", context.document.Count("accessors"), "accessors", place);
   if (accessor < 0) return;
   const Place matrices_place(place, "inverseBindMatrices");
-  const AccessorView view = reader.View(accessor);
+  const AccessorView& view = reader.View(accessor);
   if (view.type != ComponentType::F32 || view.components != 16) Fail(matrices_place, "are not float matrices");
   if (view.count < skin.joints.size()) {
     Fail(matrices_place,
@@ -32,6 +33,8 @@ void ReadSkin(Context& context, AccessorReader& reader, const Json& object, Skin
 
 void ReadSkins(Context& context, AccessorReader& reader, const Shown& shown, Scene& scene) {
   const Place list_place(context.place, "skins");
+  context.Charge(context.document.Count("skins"), sizeof(Skin), list_place);
+  scene.skins.reserve(context.document.Count("skins"));
   for (std::size_t i = 0; i < context.document.Count("skins"); ++i) {
     const Json& object = context.Object("skins", i);
     const Place place(list_place, i);

@@ -7,8 +7,12 @@
 #include <cstring>
 #include <iterator>
 
+#include "base/memory_budget.h"
+
 namespace facet::gltf {
 namespace {
+
+constexpr const char* kDataUris = "data URIs";
 
 int HexDigit(char c) {
   if (c >= '0' && c <= '9') return c - '0';
@@ -36,10 +40,6 @@ constexpr auto kBase64Digits = MakeBase64Digits();
 
 // What lines are broken and indented with.
 bool IsBlank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == '\f'; }
-
-std::filesystem::path PathOfUtf8(const std::string& name) {
-  return std::filesystem::path(std::u8string(name.begin(), name.end()));
-}
 
 }  // namespace
 
@@ -72,7 +72,9 @@ bool IsDataUri(std::string_view uri) {
 
 std::optional<Bytes> DecodeBase64(std::string_view text) {
   while (!text.empty() && (text.back() == '=' || IsBlank(text.back()))) text.remove_suffix(1);
-  MutableBytes bytes = AllocateBytes(text.size() * 3 / 4);
+  const std::size_t size = text.size() * 3 / 4;  // at most
+  MemoryBudget::Current().Charge(size, 1, kDataUris);
+  MutableBytes bytes = AllocateBytes(size);
   std::byte* out = bytes.data();
   std::uint32_t bits = 0, bad = 0;
   int held = 0;
@@ -86,14 +88,14 @@ std::optional<Bytes> DecodeBase64(std::string_view text) {
       *out++ = static_cast<std::byte>((bits >> held) & 0xFFu);
     }
   }
-  if (bad & 0x80u) {
-    if (std::none_of(text.begin(), text.end(), IsBlank)) return std::nullopt;
-    std::string dense;
-    std::remove_copy_if(text.begin(), text.end(), std::back_inserter(dense), IsBlank);
-    return DecodeBase64(dense);
-  }
-  if (text.size() % 4 == 1) return std::nullopt;
-  return bytes.Freeze();
+  if (!(bad & 0x80u) && text.size() % 4 != 1) return bytes.Freeze();
+  MemoryBudget::Current().Release(size, kDataUris);
+  if (std::none_of(text.begin(), text.end(), IsBlank)) return std::nullopt;
+  const MemoryLease lease(text.size(), 1, kDataUris);
+  std::string dense;
+  dense.reserve(text.size());
+  std::remove_copy_if(text.begin(), text.end(), std::back_inserter(dense), IsBlank);
+  return DecodeBase64(dense);
 }
 
 std::optional<Bytes> DecodeDataUri(std::string_view uri) {
@@ -104,9 +106,12 @@ std::optional<Bytes> DecodeDataUri(std::string_view uri) {
     if (!IsBlank(c)) header += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   }
   const std::string_view body = uri.substr(comma + 1);
-  const bool percent = body.find('%') != std::string_view::npos;
-  if (header.ends_with(";base64")) return percent ? DecodeBase64(PercentDecode(body)) : DecodeBase64(body);
+  const bool is_base64 = header.ends_with(";base64");
+  if (is_base64 && body.find('%') == std::string_view::npos) return DecodeBase64(body);
+  const MemoryLease lease(body.size(), 1, kDataUris);
   const std::string text = PercentDecode(body);
+  if (is_base64) return DecodeBase64(text);
+  MemoryBudget::Current().Charge(text.size(), 1, kDataUris);
   MutableBytes bytes = AllocateBytes(text.size());
   std::memcpy(bytes.data(), text.data(), text.size());
   return bytes.Freeze();
@@ -119,31 +124,6 @@ bool HasScheme(std::string_view uri) {
     ++i;
   }
   return i >= 2 && i < uri.size() && uri[i] == ':' && std::isalpha(static_cast<unsigned char>(uri[0]));
-}
-
-std::optional<std::filesystem::path> ResolveRelative(const std::filesystem::path& folder, std::string_view uri,
-                                                     const Place& place) {
-  if (uri.empty() || HasScheme(uri)) return std::nullopt;
-  const std::string decoded = PercentDecode(uri);
-  // A zero would end the name early for the operating system, and name another file than the message does.
-  if (decoded.find('\0') != std::string::npos) return std::nullopt;
-  const auto is_beside = [](const std::filesystem::path& path) { return path.is_relative() && !path.has_root_path(); };
-  const std::filesystem::path relative = PathOfUtf8(decoded);
-  if (!is_beside(relative)) return std::nullopt;
-  const auto exists = [&](const std::filesystem::path& path) {
-    std::error_code ignored;
-    return is_beside(path) && std::filesystem::exists(folder / path, ignored);
-  };
-  if (exists(relative)) return folder / relative;
-  const std::filesystem::path as_written = PathOfUtf8(std::string(uri));
-  if (exists(as_written)) return folder / as_written;
-  for (std::string name : {decoded, std::string(uri)}) {
-    std::replace(name.begin(), name.end(), '\\', '/');
-    if (!exists(PathOfUtf8(name))) continue;
-    place.Warn("backslashes are read as slashes");
-    return folder / PathOfUtf8(name);
-  }
-  return folder / relative;
 }
 
 }  // namespace facet::gltf

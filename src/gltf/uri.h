@@ -1,13 +1,11 @@
 // URIs as glTF uses them: relative references and data URIs (RFC 3986, RFC 2397, RFC 4648).
 #pragma once
 
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
 
-#include "gltf/bytes.h"
-#include "gltf/place.h"
+#include "base/input_file.h"
 
 namespace facet::gltf {
 
@@ -16,19 +14,15 @@ std::string PercentDecode(std::string_view text);
 
 bool IsDataUri(std::string_view uri);
 
-// The bytes that a data URI holds (base64, or percent-encoded text); nothing when it is malformed.
+// The bytes that a data URI holds (base64, or percent-encoded text); nothing when it is malformed. They are charged to
+// the memory budget. Throws Error(OutOfMemory).
 std::optional<Bytes> DecodeDataUri(std::string_view uri);
 
-// Standard or URL-safe alphabet, padding optional, blanks and line breaks ignored; nothing when it is malformed.
+// Standard or URL-safe alphabet, padding optional, blanks and line breaks ignored; nothing when it is malformed. Charges
+// and throws likewise.
 std::optional<Bytes> DecodeBase64(std::string_view text);
 
 // True for "http://...", "file:...": what names a scheme. A single letter is no scheme ("C:" is a Windows drive).
 bool HasScheme(std::string_view uri);
-
-// The file that a relative reference names, beside `folder`: the decoded name, or where only these exist the name as it
-// is written, or with slashes in place of backslashes (a warning at `place`). Nothing for absolute references and those
-// with a scheme.
-std::optional<std::filesystem::path> ResolveRelative(const std::filesystem::path& folder, std::string_view uri,
-                                                     const Place& place);
 
 }  // namespace facet::gltf
