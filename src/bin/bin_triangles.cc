@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 
+#include "base/memory_budget.h"
 #include "facet/error.h"
 #include "frame/constants.h"
 
@@ -66,11 +67,28 @@ void SortByTile(std::vector<Entry>& entries, std::vector<Entry>& scratch) {
   }
 }
 
+// Of a chunk's entries while they are listed and sorted. What nearly all chunks have is not worth the counting.
+class EntryCharge {
+ public:
+  void Admit(std::size_t entries) {
+    if (entries <= admitted_) return;
+    const std::size_t more = std::max(entries, 2 * admitted_) - admitted_;
+    // A list that grows has two copies of what it holds for a moment; sorting needs another.
+    leases_.emplace_back(more, 3 * sizeof(Entry), kTileListsCharge, "", "use larger tiles");
+    admitted_ += more;
+  }
+
+ private:
+  std::size_t admitted_ = std::size_t{1} << 16;
+  std::vector<MemoryLease> leases_;
+};
+
 }  // namespace
 
 void BinChunk(const TileGrid& grid, TriangleChunk& chunk) {
   const int tile_bits_fx8 = std::countr_zero(static_cast<unsigned>(grid.tile_size)) + kSubpixelBits;
   std::vector<Entry> entries;
+  EntryCharge charge;
   entries.reserve(chunk.records.size() + chunk.records.size() / 4);
   for (std::uint32_t i = 0; i < chunk.records.size(); ++i) {
     const TriangleRecord& r = chunk.records[i];
@@ -83,6 +101,9 @@ void BinChunk(const TileGrid& grid, TriangleChunk& chunk) {
     }
     const TileRange range = TilesOf(grid, tile_bits_fx8, r);
     const bool test = range.x1 - range.x0 + range.y1 - range.y0 >= 2;
+    if (range.x1 >= range.x0 && range.y1 >= range.y0) {
+      charge.Admit(entries.size() + std::size_t(range.x1 - range.x0 + 1) * std::size_t(range.y1 - range.y0 + 1));
+    }
     for (int y = range.y0; y <= range.y1; ++y) {
       for (int x = range.x0; x <= range.x1; ++x) {
         if (!test || MayTouch(grid, r, x, y)) entries.push_back({static_cast<std::uint32_t>(y * grid.columns + x), i});
@@ -123,6 +144,9 @@ void BinChunk(const TileGrid& grid, TriangleChunk& chunk) {
   for (std::uint32_t i = 0; count < place.size(); ++i) put(i);  // those that touch no tile
   chunk.records.swap(ordered);
   chunk.begin.push_back(static_cast<std::uint32_t>(entries.size()));
+  MemoryBudget::Current().Charge(chunk.records.size() * sizeof(TriangleRecord) +
+                                     (chunk.entries.size() + chunk.tiles.size() + chunk.begin.size()) * sizeof(std::uint32_t),
+                                 1, kTileListsCharge);
 }
 
 }  // namespace facet

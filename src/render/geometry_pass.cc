@@ -28,6 +28,8 @@ void RunGeometry(const FrameView& view, const PosedScene& posed, const FramePlan
   std::vector<VertexRange> ranges;
   std::uint64_t vertex_count = 0;
   std::size_t chunk_count = 0;
+  MemoryBudget& budget = MemoryBudget::Current();
+  budget.Charge(posed.drawables.size(), sizeof(FrameDrawable) + sizeof(VertexRange), "drawables");
   frame.drawables.clear();
   frame.drawables.reserve(posed.drawables.size());
   for (std::size_t d = 0; d < posed.drawables.size(); ++d) {
@@ -61,6 +63,8 @@ void RunGeometry(const FrameView& view, const PosedScene& posed, const FramePlan
     frame.drawables.push_back(drawable);
   }
   stats.drawables = frame.drawables.size();
+  budget.Charge(chunk_count, sizeof(TriangleChunk) + sizeof(VertexRange) + 192, "drawables");
+  budget.Charge(vertex_count, sizeof(ScreenVertex), "vertices on the screen");
 
   frame.chunks.resize(chunk_count);
   frame.vertices.resize(vertex_count);
@@ -94,7 +98,12 @@ void RunGeometry(const FrameView& view, const PosedScene& posed, const FramePlan
   }
 }
 
-void ListTiles(const FramePlan& plan, int first, int end, FrameGeometry& frame) {
+MemoryLease ListTiles(const FramePlan& plan, int first, int end, FrameGeometry& frame) {
+  std::uint64_t runs = 0;
+  for (const TriangleChunk& chunk : frame.chunks) runs += chunk.tiles.size();
+  // A list that grows has two copies of what it holds for a moment.
+  MemoryLease lease(3 * sizeof(TileRun) * runs + 3 * sizeof(std::vector<TileRun>) * std::uint64_t(end - first), 1,
+                    kTileListsCharge);
   for (auto* lists : {&frame.lists.opaque, &frame.lists.masked, &frame.lists.blended}) {
     for (std::vector<TileRun>& list : *lists) list.clear();
     lists->resize(std::size_t(end - first));
@@ -114,6 +123,7 @@ void ListTiles(const FramePlan& plan, int first, int end, FrameGeometry& frame) 
           {static_cast<std::uint32_t>(i), chunk.begin[t], chunk.begin[t + 1]});
     }
   }
+  return lease;
 }
 
 FrameGeometry RunGeometry(const FrameView& view, const PosedScene& posed, const FramePlan& plan, const TileGrid& grid,

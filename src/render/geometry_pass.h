@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "base/memory_budget.h"
 #include "facet/render.h"
 #include "frame/geometry.h"
 #include "frame/tile_grid.h"
@@ -21,13 +22,14 @@ struct FrameGeometry {
   VertexBuffer vertices;
 };
 
-// Fills `frame` but for its lists; whatever it held is lost. `posed` must outlive it, and may be incomplete.
+// Fills `frame` but for its lists; whatever it held is lost. `posed` must outlive it, and may be incomplete. What the
+// frame takes is charged to the current memory budget. Throws Error(OutOfMemory).
 void RunGeometry(const FrameView& view, const PosedScene& posed, const FramePlan& plan, const TileGrid& grid,
                  int samples, FrameGeometry& frame, RenderStats& stats);
 
 // Fills the lists for tiles [first, end) of the grid: those of tile `first` are the first. There are no more lists than
-// that, so that a band of a large picture needs few.
-void ListTiles(const FramePlan& plan, int first, int end, FrameGeometry& frame);
+// that, so that a band of a large picture needs few. The lease is what they take.
+MemoryLease ListTiles(const FramePlan& plan, int first, int end, FrameGeometry& frame);
 
 FrameGeometry RunGeometry(const FrameView& view, const PosedScene& posed, const FramePlan& plan, const TileGrid& grid,
                           int samples, RenderStats& stats);

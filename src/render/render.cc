@@ -25,6 +25,7 @@
 #include "render/texture_pass.h"
 #include "render/tile_pass.h"
 #include "scene/camera.h"
+#include "scene/held_bytes.h"
 #include "scene/topology.h"
 #include "shade/shade_fragments.h"
 
@@ -86,17 +87,6 @@ void CheckSettings(const RenderSettings& s) {
   }
 }
 
-template <class Primitives>
-std::size_t BytesOf(const Primitives& primitives) {
-  std::size_t bytes = 0;
-  const auto add = [&bytes](const auto& values) { bytes += values.size() * sizeof(values[0]); };
-  for (const Primitive& p : primitives) {
-    add(p.positions), add(p.normals), add(p.tangents), add(p.colors), add(p.indices);
-    for (const auto& set : p.tex_coords) add(set);
-  }
-  return bytes;
-}
-
 // The environment's picture, its copies in linear light, and its maps.
 void Count(const Image& picture, const EnvironmentOptions& options, MemoryBudget& budget) {
   const auto size = std::size_t(SharpestLevelSize(picture.width, options.max_size));
@@ -109,6 +99,7 @@ void Count(const Image& picture, const EnvironmentOptions& options, MemoryBudget
 
 std::size_t BytesOf(const EnvironmentMap& map) { return (map.texels.size() + map.picture.size()) * sizeof(float); }
 
+constexpr const char* kPosed = "posed geometry";
 constexpr const char* kPrepared = "a prepared environment";
 
 void CountPrepared(std::uint64_t bytes, MemoryBudget& budget) {
@@ -168,10 +159,9 @@ class Renderer::Frames {
                   (output.film != nullptr ? "a film of " : "a picture of ") + std::to_string(settings.width) + " x " +
                       std::to_string(band_rows) + " pixels",
                   {}, "make the picture smaller");
-    std::size_t geometry_bytes = 0;
-    for (const Mesh& mesh : scene_.meshes) geometry_bytes += BytesOf(mesh.primitives);
-    budget.Charge(geometry_bytes, 1, "geometry", {}, "leave some out");
+    budget.Charge(HeldBytes(scene_), 1, "the scene", {}, "leave some out");
     const PosedScene& posed = Posed(PoseOf(settings));
+    budget.Charge(HeldBytes(posed) + HeldCompleted(), 1, kPosed);
     FramePlan plan = MakeFramePlan(scene_, posed, settings);
     stats.left_out = plan.left_out;
     const ResolvedCamera camera =
@@ -187,7 +177,8 @@ class Renderer::Frames {
     DecodeTextures(scene_, geometry_.material_visible, settings.texels, plan, textures_, budget,
                    CompletionOfVisible(plan.every_texture), stats);
     DrawCompleted();
-    stats.pose_bytes = BytesOf(posed.owned) + BytesOf(completed_);
+    stats.pose_bytes = HeldCompleted();
+    for (const Primitive& copy : posed.owned) stats.pose_bytes += HeldBytes(copy);
     stats.texture_seconds = stage.Lap();
 
     const EnvironmentMap* environment = Environment(plan, settings, budget, stats);
@@ -211,7 +202,7 @@ class Renderer::Frames {
     const TilePassInput input{view, plan, geometry_, grid, lit, lighting, settings};
     for (int row = 0; row < grid.rows; row += band_tiles) {
       const int end = std::min(row + band_tiles, grid.rows), first = row * grid.tile_size;
-      ListTiles(plan, row * grid.columns, end * grid.columns, geometry_);
+      const MemoryLease lists = ListTiles(plan, row * grid.columns, end * grid.columns, geometry_);
       stats.geometry_seconds += stage.Lap();
       if (output.film != nullptr) {
         Film& film = *output.film;
@@ -241,6 +232,12 @@ class Renderer::Frames {
     return *posed_;
   }
 
+  std::uint64_t HeldCompleted() const {
+    std::uint64_t bytes = 0;
+    for (const Primitive& primitive : completed_) bytes += HeldBytes(primitive);
+    return bytes;
+  }
+
   const Primitive& Uncompleted(std::size_t i) const {
     return *posed_->drawables[posed_->incomplete[i].drawables[0]].geometry;
   }
@@ -262,7 +259,10 @@ class Renderer::Frames {
       ParallelFor(missing.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t m = begin; m < end; ++m) {
           const std::size_t i = missing[m];
+          MemoryLease lease(HeldBytes(Uncompleted(i)), 1, kPosed);
           completed_[i] = Completed(Uncompleted(i), posed_->incomplete[i].normal_map);
+          lease = MemoryLease();
+          MemoryBudget::Current().Charge(HeldBytes(completed_[i]), 1, kPosed);
         }
       });
     };

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <utility>
 
+#include "base/memory_budget.h"
 #include "base/parallel.h"
 #include "blend/composite.h"
 #include "facet/shader.h"
@@ -49,6 +50,28 @@ class ShadingPositions {
   float x_[256] = {}, y_[256] = {};
 };
 
+// Of what a tile may hold in any number. What nearly all tiles have is not worth the counting.
+class TileCharge {
+ public:
+  void AdmitRecords(std::size_t count) { Admit(count, kPerRecord, records_); }
+  void AdmitFragments(std::size_t count) { Admit(count, kPerFragment, fragments_); }
+
+ private:
+  void Admit(std::size_t count, std::size_t size_each, std::size_t& admitted) {
+    if (count <= admitted) return;
+    const std::size_t more = std::max(count, admitted + admitted / 2) - admitted;
+    leases_.emplace_back(more, size_each, "fragments of a tile", "", "use smaller tiles or fewer threads");
+    admitted += more;
+  }
+
+  // A pointer, a number, a setup and its place; a fragment's own numbers, those that its shading needs, its place in the
+  // order of layers. The vectors grow by half of these on average.
+  static constexpr std::size_t kPerRecord = 40 + SetupLayout::kStride * sizeof(float), kPerFragment = 120;
+
+  std::size_t records_ = std::size_t{1} << 14, fragments_ = std::size_t{1} << 16;
+  std::vector<MemoryLease> leases_;
+};
+
 // Everything a thread needs while it works on one tile; kept for the next.
 class TileWorker final : public RecordTable {
  public:
@@ -73,6 +96,7 @@ class TileWorker final : public RecordTable {
     blended_.list.Clear();
 
     const TileLists& lists = in_.geometry.lists;
+    charge_.AdmitRecords(CountOf(lists.opaque[t]) + CountOf(lists.masked[t]) + CountOf(lists.blended[t]));
     const bool nothing = lists.opaque[t].empty() && lists.masked[t].empty() && lists.blended[t].empty();
     const bool background = in_.plan.environment_background;
     if (nothing) {
@@ -88,7 +112,7 @@ class TileWorker final : public RecordTable {
     }
     if (background) LayUnder(pixels_);
     if (!lists.blended[t].empty()) {
-      RasterCollect(Gather(lists.blended[t]), tile_, blended_.list, CollectDepth::NearerOrEqual);
+      CollectBlended(Gather(lists.blended[t]));
       Shade(blended_);
       counts.blended += blended_.list.Size();
       background_.assign(pixels_.size(), glm::vec4(0.0f));
@@ -143,6 +167,23 @@ class TileWorker final : public RecordTable {
     }
     for (std::size_t i = numbers_.size(); i < count; ++i) numbers_.push_back(static_cast<std::int32_t>(i));
     return {records_.data() + before, numbers_.data() + before, count - before};
+  }
+
+  static std::size_t CountOf(const std::vector<TileRun>& runs) {
+    std::size_t count = 0;
+    for (const TileRun& run : runs) count += run.end - run.begin;
+    return count;
+  }
+
+  // In batches, so that the layers of a tile, of which there may be any number, are charged as they come.
+  void CollectBlended(const TileTriangles& triangles) {
+    constexpr std::size_t kBatch = 256;  // triangles
+    for (std::size_t first = 0; first < triangles.count; first += kBatch) {
+      charge_.AdmitFragments(blended_.list.Size());
+      RasterCollect({triangles.records + first, triangles.numbers + first, std::min(kBatch, triangles.count - first)},
+                    tile_, blended_.list, CollectDepth::NearerOrEqual);
+    }
+    charge_.AdmitFragments(blended_.list.Size());
   }
 
   // Alpha-tested triangles, in batches: their fragments are collected against the depth of the opaque ones, their alpha
@@ -367,6 +408,7 @@ class TileWorker final : public RecordTable {
   const ShadingPositions& positions_;
   const ViewDirections& directions_;
   TileCounts* counts_ = nullptr;
+  TileCharge charge_;
   TileBuffers tile_, behind_masked_;
   ShadedFragments opaque_, masked_, blended_;
   Compositor compositor_;

@@ -55,18 +55,15 @@ PosedNodes PlaceNodes(const Scene& scene, int scene_index, const Animation* anim
   for (std::size_t i = 0; i < count; ++i) {
     const Node& node = scene.nodes[i];
     transforms[i] = node.transform;
-    if (!node.weights.empty()) {
-      posed.weights[i] = node.weights;
-    } else if (node.mesh >= 0) {
-      posed.weights[i] = scene.meshes[std::size_t(node.mesh)].weights;
-    }
+    const bool of_mesh = node.weights.empty() && node.mesh >= 0;
+    posed.weights[i] = of_mesh ? &scene.meshes[std::size_t(node.mesh)].weights : &node.weights;
   }
   if (animation != nullptr) {
     for (const AnimationChannel& channel : animation->channels) {
       if (channel.node < 0 || channel.times.empty()) continue;
       const std::size_t i = std::size_t(channel.node);
       if (channel.path == AnimationPath::Weights) {
-        posed.weights[i] = SampleWeights(channel, time);
+        posed.weights[i] = &posed.sampled.emplace_back(SampleWeights(channel, time));
         continue;
       }
       // glTF forbids to animate a node that has a matrix; the matrix's parts that are not animated are kept.

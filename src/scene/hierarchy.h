@@ -1,6 +1,7 @@
 // Where every node is at one moment.
 #pragma once
 
+#include <deque>
 #include <glm/glm.hpp>
 #include <vector>
 
@@ -9,10 +10,12 @@
 
 namespace facet {
 
-// The state of every node of a scene, by index into Scene::nodes.
+// The state of every node of a scene, which must outlive it, by index into Scene::nodes.
 struct PosedNodes {
   std::vector<glm::dmat4> world_from_node;
-  std::vector<std::vector<float>> weights;  // morph weights; the mesh's own where neither node nor animation has any
+  // Morph weights, the mesh's own where neither node nor animation has any; in the scene, or in `sampled`. Never null.
+  std::vector<const std::vector<float>*> weights;
+  std::deque<std::vector<float>> sampled;
 };
 
 // Translation * rotation * scale. The rotation is normalised first; a zero one turns nothing.

@@ -1,16 +1,19 @@
 #include "scene/pose.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <string>
 #include <utility>
 
 #include "base/float_environment.h"
+#include "base/memory_budget.h"
 #include "base/parallel.h"
 #include "facet/error.h"
 #include "scene/bounds.h"
 #include "scene/deform.h"
 #include "scene/geometry.h"
+#include "scene/held_bytes.h"
 #include "scene/hierarchy.h"
 #include "scene/tangents.h"
 #include "scene/topology.h"
@@ -21,7 +24,7 @@ namespace {
 // One geometry of the posed scene: a primitive of the scene, or a deformed or completed copy of it.
 struct Shape {
   const Primitive* primitive = nullptr;
-  std::string where;
+  int mesh = -1, index = -1;  // of the primitive in its mesh
   bool morphed = false;
   const std::vector<float>* weights = nullptr;  // of the morph targets
   const JointMatrices* joints = nullptr;        // null: not skinned
@@ -30,11 +33,13 @@ struct Shape {
   bool IsDeformed() const { return morphed || joints != nullptr; }
   bool NeedsNormals() const { return needs_tangents && primitive->normals.empty(); }
   bool IsCopy() const { return IsDeformed() || NeedsNormals(); }  // flat normals want vertices of their own
+  std::string Where() const { return "mesh " + std::to_string(mesh) + ", primitive " + std::to_string(index); }
 };
 
 // What Pose and PosedBounds have in common: which geometries there are and where each is drawn. Its shapes point into
 // the nodes' weights and the joints, whose addresses a move keeps.
 struct Plan {
+  std::vector<MemoryLease> memory;
   std::vector<Shape> shapes;
   std::vector<std::size_t> shape_of_drawable;
   std::vector<Drawable> drawables;  // without geometry
@@ -56,6 +61,8 @@ void CheckSettings(const Scene& scene, const PoseSettings& settings) {
   CheckSetting(settings.variant, scene.variants.size(), "variant");
   if (std::isnan(settings.time)) throw Error(ErrorCode::InvalidUsage, "the time is not a number", "pose");
 }
+
+std::size_t CopiesOf(const Node& node) { return node.instances.empty() ? 1 : node.instances.size(); }
 
 int MaterialOf(const Primitive& primitive, int variant) {
   if (variant >= 0 && std::size_t(variant) < primitive.variant_materials.size()) {
@@ -96,8 +103,9 @@ std::vector<std::size_t> AddShapes(const Scene& scene, int node_index, const Pos
     const Primitive& primitive = mesh.primitives[p];
     if (primitive.positions.empty()) continue;
     Shape shape = MakeShape(scene, primitive, MaterialOf(primitive, settings.variant), settings);
-    shape.where = "mesh " + std::to_string(node.mesh) + ", primitive " + std::to_string(p);
-    shape.weights = &plan.nodes.weights[std::size_t(node_index)];
+    shape.mesh = node.mesh;
+    shape.index = int(p);
+    shape.weights = plan.nodes.weights[std::size_t(node_index)];
     shape.morphed = settings.morph_targets && IsMorphed(primitive, *shape.weights);
     if (settings.skins && node.skin >= 0 && !primitive.joints.empty()) {
       if (joints == nullptr) {
@@ -123,7 +131,7 @@ void AddDrawables(const Scene& scene, int node_index, int variant, const std::ve
   const Node& node = scene.nodes[std::size_t(node_index)];
   const Mesh& mesh = scene.meshes[std::size_t(node.mesh)];
   const glm::dmat4& world_from_node = plan.nodes.world_from_node[std::size_t(node_index)];
-  const std::size_t copies = node.instances.empty() ? 1 : node.instances.size();
+  const std::size_t copies = CopiesOf(node);
   for (std::size_t copy = 0; copy < copies; ++copy) {
     const glm::dmat4 world_from_copy =
         node.instances.empty() ? world_from_node : world_from_node * ToMatrix(node.instances[copy]);
@@ -144,14 +152,49 @@ void AddDrawables(const Scene& scene, int node_index, int variant, const std::ve
   }
 }
 
+struct PlanSize {
+  std::uint64_t drawables = 0, shapes = 0, joints = 0;  // at most
+};
+
+// A small file may ask for any number of them: many nodes and instances may share a mesh of many primitives, many nodes
+// a skin of many joints.
+PlanSize SizePlan(const Scene& scene, const PoseSettings& settings, const std::vector<int>& visible) {
+  PlanSize size;
+  std::vector<bool> has_targets(scene.meshes.size(), false);
+  for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
+    const std::vector<Primitive>& primitives = scene.meshes[m].primitives;
+    size.shapes += primitives.size();
+    has_targets[m] = std::any_of(primitives.begin(), primitives.end(),
+                                 [](const Primitive& primitive) { return !primitive.targets.empty(); });
+  }
+  for (const int index : visible) {
+    const Node& node = scene.nodes[std::size_t(index)];
+    if (node.mesh < 0) continue;
+    const std::uint64_t primitives = scene.meshes[std::size_t(node.mesh)].primitives.size();
+    const bool has_skin = settings.skins && node.skin >= 0;
+    size.drawables += primitives * CopiesOf(node);
+    if (has_skin || has_targets[std::size_t(node.mesh)]) size.shapes += primitives;
+    if (has_skin) size.joints += scene.skins[std::size_t(node.skin)].joints.size();
+  }
+  return size;
+}
+
 Plan MakePlan(const Scene& scene, const PoseSettings& settings) {
   CheckSettings(scene, settings);
   ValidateScene(scene);
   Plan plan;
+  plan.visible = NodesOf(scene, settings.scene, /*with_hidden=*/false);
+  const PlanSize size = SizePlan(scene, settings, plan.visible);
+  plan.memory.emplace_back(scene.nodes.size(), sizeof(glm::dmat4) + sizeof(Transform) + 64, "placed nodes");
+  plan.memory.emplace_back(size.drawables, sizeof(Drawable) + 64, "drawables");
+  plan.memory.emplace_back(size.shapes, sizeof(Shape) + sizeof(Bounds) + 96, "drawables");
+  plan.memory.emplace_back(size.joints, sizeof(glm::dmat4), "joint matrices");
+  plan.shapes.reserve(size.shapes);
+  plan.drawables.reserve(size.drawables);
+  plan.shape_of_drawable.reserve(size.drawables);
   const Animation* animation =
       settings.animation < 0 ? nullptr : &scene.animations[std::size_t(settings.animation)];
   plan.nodes = PlaceNodes(scene, settings.scene, animation, settings.time);
-  plan.visible = NodesOf(scene, settings.scene, /*with_hidden=*/false);
   SharedShapes shared;
   for (const int index : plan.visible) {
     if (scene.nodes[std::size_t(index)].mesh < 0) continue;
@@ -167,6 +210,25 @@ std::vector<std::vector<std::size_t>> DrawablesOfShapes(const Plan& plan) {
   return drawables;
 }
 
+constexpr const char* kPosed = "posed geometry";
+
+// What BuildCopy() takes at its most but for tangents, which charge what they take.
+std::uint64_t CopyBytes(const Shape& shape) {
+  const Primitive& p = *shape.primitive;
+  std::uint64_t per_vertex = sizeof(glm::vec3);
+  if (!p.normals.empty() || shape.needs_tangents) per_vertex += sizeof(glm::vec3);
+  if (!p.tangents.empty() || shape.needs_tangents) per_vertex += sizeof(glm::vec4);
+  if (!p.colors.empty()) per_vertex += sizeof(glm::vec4);
+  for (const auto& set : p.tex_coords) per_vertex += set.empty() ? 0 : sizeof(glm::vec2);
+  if (shape.joints != nullptr && shape.needs_tangents) {
+    per_vertex += p.joints.size() * (sizeof(glm::u16vec4) + sizeof(glm::vec4));
+  }
+  const std::uint64_t corners = 3 * std::uint64_t{PrimitiveCount(p)};
+  const std::uint64_t vertices = shape.NeedsNormals() ? corners : p.positions.size();
+  const std::uint64_t indices = shape.needs_tangents ? corners : p.indices.size();
+  return vertices * per_vertex + indices * sizeof(std::uint32_t) + p.tex_coords.size() * sizeof(p.tex_coords[0]);
+}
+
 // The deformed, completed copy of a shape's primitive. Tangents are made between morph and skin: morphing moves the
 // surface under its UVs, skinning carries tangents along.
 Primitive BuildCopy(const Shape& shape) {
@@ -179,7 +241,7 @@ Primitive BuildCopy(const Shape& shape) {
   if (shape.NeedsNormals()) MakeFlat(copy);
   if (shape.needs_tangents) MakeTangents(shape.normal_map, copy);
   if (shape.joints != nullptr) {
-    ApplySkin(*shape.joints, shape.needs_tangents ? copy : *shape.primitive, shape.where, copy);
+    ApplySkin(*shape.joints, shape.needs_tangents ? copy : *shape.primitive, shape.Where(), copy);
   }
   copy.joints.clear();
   copy.weights.clear();
@@ -188,10 +250,11 @@ Primitive BuildCopy(const Shape& shape) {
 
 // The box of a shape before world_from_mesh, without building more of a deformed copy than its positions.
 Bounds BoundsOfShape(const Shape& shape, std::vector<glm::vec3>& positions) {
+  const MemoryLease lease(shape.primitive->positions.size(), sizeof(glm::vec3), kPosed);
   Primitive copy;
   copy.positions = shape.primitive->positions;
   if (shape.morphed) ApplyMorph(*shape.primitive, *shape.weights, copy);
-  if (shape.joints != nullptr) ApplySkin(*shape.joints, *shape.primitive, shape.where, copy);
+  if (shape.joints != nullptr) ApplySkin(*shape.joints, *shape.primitive, shape.Where(), copy);
   positions = std::move(copy.positions);
   return BoundsOf(positions);
 }
@@ -251,8 +314,16 @@ PosedScene PoseIncomplete(const Scene& scene, const PoseSettings& settings) {
     geometries[i] = &posed.owned.emplace_back();
     copies.emplace_back(i, &posed.owned.back());
   }
+  std::vector<MemoryLease> leases(copies.size());
   ParallelFor(copies.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) *copies[i].second = BuildCopy(plan.shapes[copies[i].first]);
+    for (std::size_t i = begin; i < end; ++i) {
+      const Shape& shape = plan.shapes[copies[i].first];
+      leases[i] = MemoryLease(CopyBytes(shape), 1, kPosed);
+      Primitive& copy = *copies[i].second;
+      copy = BuildCopy(shape);
+      leases[i] = MemoryLease();
+      leases[i] = MemoryLease(HeldBytes(copy), 1, kPosed);
+    }
   });
 
   // Unless they are deformed, the vertices of the file count, as they do in PosedBounds.

@@ -69,8 +69,9 @@ struct PosedScene {
 };
 
 // Animation, hierarchy, visibility, instances, morph targets, skins, variants, missing tangents. Runs in parallel
-// where it pays. Throws Error(InvalidUsage) for an index out of range, Error(InvalidInput) for scenes that break
-// their rules.
+// where it pays. What that takes is charged to the current memory budget until it is done; who keeps the posed scene
+// charges HeldBytes(). Throws Error: InvalidUsage for an index out of range, InvalidInput for scenes that break their
+// rules, OutOfMemory.
 PosedScene Pose(const Scene& scene, const PoseSettings& settings);
 
 // As Pose(), but geometry that has normals and is not deformed is the scene's own, and `incomplete` says where it lacks
