@@ -9,7 +9,7 @@ set -euo pipefail
 packages=(cmake ninja-build g++ pkg-config
   libglm-dev libhwy-dev libtbb-dev                      # the core
   nlohmann-json3-dev libdraco-dev libmeshoptimizer-dev
-  libpng-dev libdeflate-dev libjpeg-dev libopenimageio-dev libimath-dev # pictures
+  libpng-dev libdeflate-dev libjpeg-dev libwebp-dev libopenimageio-dev libimath-dev # pictures
   libcli11-dev)
 extras=(clang libclang-rt-dev libgtest-dev libbenchmark-dev python3 python3-numpy python3-pil
   qemu-user) # the tests' processors of other makers

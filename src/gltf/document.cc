@@ -2,6 +2,8 @@
 
 #include <cctype>
 
+#include "base/json_bounds.h"
+
 namespace facet::gltf {
 namespace {
 

@@ -7,7 +7,7 @@
 #include <limits>
 #include <string>
 
-#include "base/json_depth.h"
+#include "base/json_bounds.h"
 #include "base/memory_budget.h"
 #include "gltf/extensions.h"
 
@@ -152,30 +152,6 @@ void Normalise(Json& value, const Place& place, bool are_extensions = false) {
 }
 
 }  // namespace
-
-std::uint64_t JsonMemory(std::string_view text) {
-  // With the allocator's own bytes. An array grows by doubling, so that each value is there thrice for a moment. Of a
-  // string, the parser has a copy while it reads it.
-  constexpr std::uint64_t kValue = 3 * sizeof(Json), kMember = 2 * sizeof(std::string) + sizeof(Json) + 32;
-  constexpr std::uint64_t kObject = 64, kArray = 48, kQuote = 32;
-  std::uint64_t bytes = kValue + 2 * std::uint64_t(text.size());
-  bool in_string = false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    if (c == '"') bytes += kQuote;
-    if (in_string) {
-      if (c == '\\') ++i;
-      if (c == '"') in_string = false;
-      continue;
-    }
-    if (c == '"') in_string = true;
-    if (c == ',') bytes += kValue;
-    if (c == ':') bytes += kMember;
-    if (c == '{') bytes += kObject + kValue;
-    if (c == '[') bytes += kArray + kValue;
-  }
-  return bytes;
-}
 
 Json ParseJson(std::string_view text, const Place& place) {
   if (IsJsonDeeperThan(text, kMaxJsonDepth)) {

@@ -141,9 +141,11 @@ LoadedScene LoadGltf(const std::filesystem::path& path, const LoadOptions& optio
   const FloatEnvironment pinned;  // the C library reads decimal numbers by the host's rounding mode
   try {
     return gltf::Load(path, options);
+  } catch (const Error& error) {
+    if (!error.where().empty()) throw;
+    throw Error(error.code(), error.message(), path.filename().string(), error.hint());
   } catch (const std::bad_alloc&) {
-    throw Error(ErrorCode::OutOfMemory, "there is not enough memory to load the file", path.filename().string(),
-                "set a memory limit: then the line says what takes so much");
+    throw Error(ErrorCode::OutOfMemory, "there is not enough memory to load the file", path.filename().string());
   }
 }
 

@@ -17,6 +17,7 @@
 #include "image/limits.h"
 #include "image/oiio_loader.h"
 #include "image/png.h"
+#include "image/probe.h"
 #include "image/radiance.h"
 #include "image/webp.h"
 
@@ -26,6 +27,14 @@ namespace {
 constexpr int kPieceRows = 64;  // a piece stays in the processor's cache until the receiver has it
 
 using DecodeRowsOf = void (*)(std::span<const std::byte>, const std::string&, int, const PieceReceiver&);
+
+// Before a decoder sees the file.
+void CheckHeader(std::span<const std::byte> bytes, const std::string& name) {
+  const std::optional<ImageHeader> header = ProbeImage(bytes);
+  if (header && header->width > 0 && header->height > 0) {
+    CheckImageSize(std::uint64_t(header->width), std::uint64_t(header->height), name);
+  }
+}
 
 // Of the formats that are decoded row by row; null for others.
 DecodeRowsOf RowDecoderOf(std::span<const std::byte> bytes) {
@@ -84,6 +93,7 @@ std::vector<std::byte> AllocatePixels(std::size_t count, const std::string& name
 }
 
 Image DecodeImage(std::span<const std::byte> bytes, const std::string& name, ImageFormats formats) {
+  CheckHeader(bytes, name);
   const DecodeRowsOf decode = RowDecoderOf(bytes);
   if (decode == nullptr) return DecodeWhole(bytes, name, formats);
   Image image;
@@ -109,6 +119,7 @@ Image DecodeImage(std::span<const std::byte> bytes, const std::string& name, Ima
 
 void DecodeImageRows(std::span<const std::byte> bytes, const std::string& name, const RowReceiver& receive,
                      ImageFormats formats) {
+  CheckHeader(bytes, name);
   if (const DecodeRowsOf decode = RowDecoderOf(bytes)) return decode(bytes, name, kPieceRows, receive);
   const Image whole = DecodeWhole(bytes, name, formats);
   const MemoryLease lease(whole.bytes.size(), 1, "decoded images", name);

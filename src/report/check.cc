@@ -360,6 +360,8 @@ std::size_t CheckReport::Count(Verdict verdict) const {
 CheckReport CheckManifest(const std::filesystem::path& path, const CheckOptions& options) {
   const Clock::time_point start = Clock::now();
   CheckThreads(options.threads);
+  MemoryBudget whole(options.load.memory_limit);  // of the manifest, and what is said about it
+  const MemoryBudget::Scope scope(whole);
   const Manifest manifest = ReadManifest(path);
   CheckReport report;
   report.manifest = manifest.name;

@@ -6,7 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "base/input_file.h"
-#include "base/json_depth.h"
+#include "base/json_bounds.h"
+#include "base/memory_budget.h"
 #include "base/printable.h"
 
 namespace facet {
@@ -145,23 +146,29 @@ void ReadEntry(const Value& value, ManifestEntry& entry) {
 }
 
 // JSON lets a key stand twice and keeps the last value: one of two that somebody meant. No object of a manifest has very
-// many keys, and those of the parser take time that grows with their square.
-class KeyGuard {
+// many keys, and those of the parser take time that grows with their square. Looks at a text before it is parsed.
+class KeyGuard : public nlohmann::json_sax<Json> {
  public:
   explicit KeyGuard(const std::string& file) : file_(file) {}
-  bool operator()(int, Json::parse_event_t event, const Json& value) {
-    if (event == Json::parse_event_t::object_start) {
-      seen_.emplace_back();
-    } else if (event == Json::parse_event_t::object_end) {
-      seen_.pop_back();
-    } else if (event == Json::parse_event_t::key) {
-      constexpr std::size_t kMostKeys = 1000;
-      const bool is_new = seen_.back().insert(value.get<std::string>()).second;
-      if (!is_new) Fail("the key " + Quoted(value.get<std::string>()) + " is twice in one object");
-      if (seen_.back().size() > kMostKeys) Fail("an object has more than " + std::to_string(kMostKeys) + " keys");
-    }
+
+  bool start_object(std::size_t) override { return seen_.emplace_back(), true; }
+  bool end_object() override { return seen_.pop_back(), true; }
+  bool key(std::string& name) override {
+    constexpr std::size_t kMostKeys = 1000;
+    if (!seen_.back().insert(name).second) Fail("the key " + Quoted(name) + " is twice in one object");
+    if (seen_.back().size() > kMostKeys) Fail("an object has more than " + std::to_string(kMostKeys) + " keys");
     return true;
   }
+  bool null() override { return true; }
+  bool boolean(bool) override { return true; }
+  bool number_integer(number_integer_t) override { return true; }
+  bool number_unsigned(number_unsigned_t) override { return true; }
+  bool number_float(number_float_t, const std::string&) override { return true; }
+  bool string(std::string&) override { return true; }
+  bool binary(binary_t&) override { return true; }
+  bool start_array(std::size_t) override { return true; }
+  bool end_array() override { return true; }
+  bool parse_error(std::size_t, const std::string&, const Json::exception&) override { return false; }  // said later
 
  private:
   void Fail(const std::string& message) const { throw Error(ErrorCode::InvalidInput, message, file_); }
@@ -175,7 +182,9 @@ Json Parse(const std::string& text, const std::string& file) {
     throw Error(ErrorCode::InvalidInput, "JSON is nested deeper than " + std::to_string(kMaxJsonDepth) + " levels", file);
   }
   try {
-    return Json::parse(text, KeyGuard(file));
+    KeyGuard guard(file);
+    Json::sax_parse(text, &guard);
+    return Json::parse(text);
   } catch (const Json::parse_error& error) {
     const std::string before = text.substr(0, error.byte == 0 ? 0 : error.byte - 1);
     const auto line = 1 + std::count(before.begin(), before.end(), '\n');
@@ -216,6 +225,7 @@ Manifest ReadManifest(const std::filesystem::path& path) {
   manifest.name = Printable(path.string());
   manifest.path = path;
   manifest.text = ReadFile(path).Text();
+  const MemoryLease lease(JsonMemory(manifest.text), 1, "JSON", manifest.name);
   const Json json = Parse(manifest.text, manifest.name);
   const Value root{json, Json::json_pointer(), manifest.name};
   root.Expect(json.is_object(), "manifest: a JSON object");
@@ -233,6 +243,9 @@ Manifest ReadManifest(const std::filesystem::path& path) {
   entries.Expect(entries.json.is_array(), "list");
   if (entries.json.empty()) entries.Fail("is empty: there is nothing to check", "list a scene at least");
 
+  constexpr std::size_t kEntry = sizeof(ManifestEntry) + 1024;  // with its names, and what the check says about it
+  MemoryBudget::Current().Charge(entries.json.size(), kEntry, "entries", manifest.name);
+  manifest.entries.reserve(entries.json.size());
   std::map<std::string, std::string> pointer_of_name, pointer_of_picture;
   for (std::size_t i = 0; i < entries.json.size(); ++i) {
     const Value value{entries.json[i], entries.pointer / i, manifest.name};
@@ -257,6 +270,7 @@ Manifest ReadManifest(const std::filesystem::path& path) {
 }
 
 std::string Rewritten(const Manifest& manifest, const std::vector<NewExpectation>& expectations) {
+  const MemoryLease lease(JsonMemory(manifest.text), 1, "JSON", manifest.name);
   Json json = Json::parse(manifest.text);
   for (const NewExpectation& expectation : expectations) {
     Json& expect = json["entries"][expectation.entry]["expect"];

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string_view>
 
-#include "base/json_depth.h"
+#include "base/json_bounds.h"
 #include "base/printable.h"
 #include "facet/error.h"
 #include "facet/version.h"

@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "base/json_bounds.h"
+#include "base/memory_budget.h"
 #include "base/printable.h"
 #include "facet/error.h"
 #include "facet/report.h"
@@ -177,6 +179,10 @@ std::string ToJson(const ErrorReport& report) {
 
 ErrorReport ReportFromJson(const std::string& json, const std::string& name) {
   const std::string file = Printable(name);
+  if (IsJsonDeeperThan(json, kMaxJsonDepth)) {
+    throw Error(ErrorCode::InvalidInput, "JSON is nested deeper than " + std::to_string(kMaxJsonDepth) + " levels", file);
+  }
+  const MemoryLease lease(JsonMemory(json), 1, "JSON", file);
   Json parsed;
   try {
     parsed = Json::parse(json);

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "base/bytes_text.h"
-#include "base/json_depth.h"
+#include "base/json_bounds.h"
 #include "base/parallel.h"
 #include "facet/error.h"
 

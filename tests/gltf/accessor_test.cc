@@ -154,14 +154,15 @@ TEST(Accessor, FewBytesSharedByManyPrimitivesAreBounded) {
   LoadError(file.AsGlb(), ErrorCode::OutOfMemory);
 }
 
-TEST(Accessor, TheBoundOfTheOptionsHolds) {
+TEST(Accessor, TheMemoryLimitHolds) {
   FileMaker file;
-  file.Attribute("POSITION", file.Triangle());
+  file.Attribute("POSITION", file.Accessor(-1, 5126, 1000000, "VEC3"));
   LoadOptions options;
-  options.max_geometry_bytes = 36;
-  EXPECT_EQ(First(LoadBytes(file.AsGlb(), options)).positions.size(), 3u);
-  options.max_geometry_bytes = 35;
-  LoadError(file.AsGlb(), ErrorCode::OutOfMemory, options);
+  options.memory_limit = 13'000'000;
+  EXPECT_EQ(First(LoadBytes(file.AsGlb(), options)).positions.size(), 1000000u);
+  options.memory_limit = 11'000'000;
+  const std::string error = LoadError(file.AsGlb(), ErrorCode::OutOfMemory, options);
+  EXPECT_NE(error.find("this needs 11.4 MiB for the scene"), std::string::npos) << error;
 }
 
 TEST(Accessor, WhatIsNotFiniteBecomesZeroWithOneWarning) {

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+
+#include "gltf/files.h"
 #include "gltf_files.h"
 
 namespace facet {
@@ -14,9 +17,7 @@ using testing::Base64;
 using testing::FileMaker;
 using testing::TempFolder;
 
-std::string Text(const std::optional<gltf::Bytes>& bytes) {
-  return bytes ? std::string(reinterpret_cast<const char*>(bytes->data), bytes->size) : "(malformed)";
-}
+std::string Text(const std::optional<Bytes>& bytes) { return bytes ? std::string(bytes->Text()) : "(malformed)"; }
 
 TEST(Uri, PercentDecoding) {
   EXPECT_EQ(PercentDecode("a%20b%2Fc"), "a b/c");
@@ -58,12 +59,51 @@ TEST(Uri, DataUris) {
 }
 
 TEST(Uri, OnlyRelativeReferencesAreFollowed) {
-  const auto resolve = [](const char* uri) { return gltf::ResolveRelative("/folder", uri, gltf::Place("a.gltf")); };
-  EXPECT_FALSE(resolve("https://example.com/a.bin"));
-  EXPECT_FALSE(resolve("file:///etc/hostname"));
-  EXPECT_FALSE(resolve("/etc/hostname"));
-  EXPECT_FALSE(resolve("a%00b"));
-  EXPECT_EQ(resolve("sub/a%20b.bin"), std::filesystem::path("/folder/sub/a b.bin"));
+  const std::filesystem::path scene = "/folder/a.gltf";
+  LoadOptions options;
+  LoadReport report;
+  gltf::FileStore files(scene, options, report);
+  const gltf::Place place("a.gltf");
+  for (const char* bad : {"", "https://example.com/a.bin", "file:///etc/hostname", "/etc/hostname", "a%00b", "../a.bin",
+                          "sub/../../a.bin", "%2E%2E/a.bin", "..%5Ca.bin/../../b"}) {
+    EXPECT_THROW(files.Find(bad, place), Error) << bad;
+  }
+  EXPECT_TRUE(report.files.empty());
+  EXPECT_EQ(files.Find("sub/a%20b.bin", place), std::filesystem::path("/folder/sub/a b.bin"));
+  EXPECT_EQ(files.Find("sub/../c.bin", place), std::filesystem::path("/folder/sub/../c.bin"));
+  EXPECT_EQ(report.files.size(), 2u);
+  options.root = "/";
+  EXPECT_EQ(files.Find("/etc/hostname", place), std::filesystem::path("/etc/hostname"));
+  EXPECT_EQ(files.Find("../a.bin", place), std::filesystem::path("/folder/../a.bin"));
+}
+
+TEST(Uri, LinksLeadNoFurtherThanNames) {
+  const TempFolder folder;
+  std::filesystem::create_directory(folder.path() / "inner");
+  std::ofstream(folder.path() / "secret.bin") << "secret";
+  std::filesystem::create_symlink("../secret.bin", folder.path() / "inner" / "link.bin");
+  const std::filesystem::path scene = folder.path() / "inner" / "a.gltf";
+  LoadOptions options;
+  LoadReport report;
+  gltf::FileStore files(scene, options, report);
+  const gltf::Place place("a.gltf");
+  EXPECT_THROW(files.Find("link.bin", place), Error);
+  options.root = folder.path();
+  EXPECT_EQ(files.Read(files.Find("link.bin", place)).Text(), "secret");
+}
+
+TEST(Uri, OneFileIsReadOnceByWhateverNames) {
+  const TempFolder folder;
+  std::ofstream(folder.path() / "a.bin") << std::string(1000, 'x');
+  const std::filesystem::path scene = folder.path() / "a.gltf";
+  LoadOptions options;
+  LoadReport report;
+  gltf::FileStore files(scene, options, report);
+  const gltf::Place place("a.gltf");
+  const Bytes first = files.Read(files.Find("a.bin", place));
+  EXPECT_EQ(files.Read(files.Find("./././a.bin", place)).data, first.data);
+  EXPECT_EQ(files.Read(files.Find("%61.bin", place)).data, first.data);
+  EXPECT_EQ(report.file_bytes, 1000u);
 }
 
 // The buffer's file is called `file_name`, and the glTF file calls it `uri`.

@@ -1,6 +1,7 @@
 // JSON from anybody, before a parser sees it.
 #pragma once
 
+#include <cstdint>
 #include <string_view>
 
 namespace facet {
@@ -11,5 +12,8 @@ bool IsJsonDeeperThan(std::string_view text, int levels);
 
 // What facet's own files have at most, and more than anybody's glTF files need.
 inline constexpr int kMaxJsonDepth = 128;
+
+// Bytes that nlohmann::json takes for the values of a text, while it parses it and after, at most. Takes any text.
+std::uint64_t JsonMemory(std::string_view text);
 
 }  // namespace facet
