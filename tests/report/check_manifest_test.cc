@@ -49,7 +49,7 @@ TEST_F(ManifestFile, IsReadWithItsSettings) {
       {"name": "a", "scene": "x/a.glb"},
       {"name": "b", "scene": "b.glb", "settings": {"samples": "2", "environment": "sky.hdr"},
        "expect": {"picture": "golden/b.png", "max-flip": 0.5, "max-pixels": 12, "min-psnr": -3}}]})"));
-  EXPECT_EQ(manifest.folder, folder_);
+  EXPECT_EQ(manifest.path, folder_ / "goldens.json");
   ASSERT_EQ(manifest.entries.size(), 2u);
   const ManifestEntry& a = manifest.entries[0];
   EXPECT_EQ(a.scene, "x/a.glb");
