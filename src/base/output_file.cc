@@ -278,7 +278,7 @@ bool FileSet::Has(const fs::path& path) const {
   return named_.count(Canonical(path)) > 0;
 }
 
-void RefuseOverwriting(const std::vector<fs::path>& outputs, const FileSet& inputs) {
+void RefuseOverwritingAnyOf(const FileSet& inputs, const std::vector<fs::path>& outputs) {
   FileSet before;
   for (const fs::path& output : outputs) {
     if (!IsPlainFile(output)) continue;
@@ -295,7 +295,7 @@ void RefuseOverwriting(const std::vector<fs::path>& outputs, const FileSet& inpu
 void RefuseOverwriting(const std::vector<fs::path>& outputs, const std::vector<fs::path>& inputs) {
   FileSet files;
   for (const fs::path& input : inputs) files.Add(input);
-  RefuseOverwriting(outputs, files);
+  RefuseOverwritingAnyOf(files, outputs);
 }
 
 }  // namespace facet

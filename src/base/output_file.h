@@ -86,6 +86,6 @@ class FileSet {
 // `inputs`, under whatever names.
 void RefuseOverwriting(const std::vector<std::filesystem::path>& outputs,
                        const std::vector<std::filesystem::path>& inputs);
-void RefuseOverwriting(const std::vector<std::filesystem::path>& outputs, const FileSet& inputs);
+void RefuseOverwritingAnyOf(const FileSet& inputs, const std::vector<std::filesystem::path>& outputs);
 
 }  // namespace facet

@@ -287,7 +287,7 @@ class Check {
 
   void WritePicture(const Image& actual, const std::vector<std::filesystem::path>& scene_files) const {
     const std::filesystem::path path = PicturePath();
-    RefuseOverwriting({path}, inputs_);
+    RefuseOverwritingAnyOf(inputs_, {path});
     RefuseOverwriting({path}, scene_files);
     std::error_code ignored;  // writing says it better
     std::filesystem::create_directories(path.parent_path(), ignored);

@@ -6,11 +6,13 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "base/input_file.h"
 #include "facet/check.h"
 #include "facet/error.h"
 #include "facet/film.h"
 #include "facet/load.h"
 #include "facet/render.h"
+#include "image/codec.h"
 #include "report/provenance.h"
 #include "report/scratch.h"
 
@@ -249,7 +251,7 @@ TEST_F(CheckFile, AnUpdateRewritesPicturesThatAreMissingBrokenOrStale) {
   expect_rewritten();
   Disturb("a.png", 1);
   expect_rewritten();
-  const Provenance provenance = ReadProvenance(folder_ / "a.png");  // it can be verified
+  const Provenance provenance = ReadProvenance(ReadFile(folder_ / "a.png").Span(), "a.png");  // it can be verified
   EXPECT_EQ(provenance.film, Only().film);
   EXPECT_EQ(provenance.settings.at("size"), "48x32");
 }
