@@ -53,9 +53,12 @@ std::size_t TakenBy(const std::string& text) {
   return g_most - before;
 }
 
-void ExpectCharged(const std::string& text, const std::string& what) {
+// `in_order`: by the parser that keeps the order of keys as well, which compares each with all before it.
+void ExpectCharged(const std::string& text, const std::string& what, bool in_order = true) {
   const std::uint64_t charged = JsonMemory(text);
   EXPECT_LE(TakenBy<nlohmann::json>(text), charged) << what << ", " << text.size() << " bytes";
+  if (!in_order) return;
+  EXPECT_LE(TakenBy<nlohmann::ordered_json>(text), 2 * charged) << what << ", " << text.size() << " bytes, in order";
 }
 
 std::string Repeated(const std::string& part, int count, const std::string& between = "") {
@@ -96,20 +99,20 @@ TEST(JsonMemory, IsAtLeastWhatDeepValuesTake) {
 
 TEST(JsonMemory, IsAtLeastWhatWideObjectsTake) {
   for (const char* value : {"0", "\"\"", "[]", "{}", "\"0123456789abcdef\""}) {
-    for (const int count : {1, 2, 3, 100, 20000}) {
+    for (const int count : {1, 2, 3, 5, 9, 17, 33, 129, 1000, 20000}) {
       for (const std::size_t padding : {std::size_t(0), std::size_t(10), std::size_t(11), std::size_t(40)}) {
         std::string text = "{";
         for (int i = 0; i < count; ++i) {
           text += (i ? ",\"" : "\"") + std::to_string(i) + std::string(padding, 'k') + "\":" + value;
         }
-        ExpectCharged(text + "}", std::string(value) + " by key, " + std::to_string(count) + ", padding " +
-                                      std::to_string(padding));
+        const std::string what = std::string(value) + " by key, " + std::to_string(count) + ", padding ";
+        ExpectCharged(text + "}", what + std::to_string(padding), count <= 1000);
       }
     }
   }
 }
 
-// The parser keeps the bytes of the token that it reads twice, in buffers that double.
+// The parser keeps the bytes of the string or number that it reads, and those up to the next, in buffers that double.
 TEST(JsonMemory, IsAtLeastWhatOneLongTokenTakes) {
   for (const int power : {4, 6, 10, 16, 20}) {
     for (const int more : {-2, -1, 0, 1, 2}) {
@@ -119,6 +122,9 @@ TEST(JsonMemory, IsAtLeastWhatOneLongTokenTakes) {
       ExpectCharged("{\"" + std::string(size, 'x') + "\":1}", "a key");
       ExpectCharged("[0." + std::string(size, '1') + "]", "a number");
       ExpectCharged('"' + Repeated("\\n", int(size / 2)) + '"', "escapes");
+      ExpectCharged('[' + std::string(size, ' ') + ']', "spaces");
+      ExpectCharged("[1" + std::string(size, '\n') + ",2]", "lines");
+      ExpectCharged("[\"a\"," + Repeated("null,", int(size / 5)) + "0]", "literals");
     }
   }
 }
@@ -128,7 +134,7 @@ class Trees {
  public:
   explicit Trees(unsigned seed) : random_(seed) {}
   std::string Make(int levels) {
-    const unsigned kind = random_() % (levels > 0 ? 9 : 5);
+    const auto kind = random_() % (levels > 0 ? 9 : 5);
     switch (kind) {
       case 0: return std::to_string(int(random_() % 100000) - 50000);
       case 1: return "0." + std::to_string(random_());
@@ -148,7 +154,7 @@ class Trees {
   }
 
  private:
-  std::mt19937 random_;
+  std::minstd_rand random_;
 };
 
 TEST(JsonMemory, IsAtLeastWhatMixedValuesTake) {

@@ -13,11 +13,12 @@ namespace {
 using testing::FileMaker;
 using testing::LoadBytes;
 using testing::LoadError;
+using testing::WithinMemory;
 
 std::uint64_t LeastFor(const std::string& bytes) {
   const testing::TempFolder folder;
   const auto path = folder.Write("test.glb", bytes);
-  return LeastLimit([&](std::uint64_t limit) { LoadGltf(path, {.memory_limit = limit}); });
+  return LeastLimit([&](std::uint64_t limit) { LoadGltf(path, WithinMemory(limit)); });
 }
 
 // The scene of `asks` takes from `least` bytes up to an eighth more than that of `others`, whose length is the same; with
@@ -27,7 +28,7 @@ void ExpectCharged(const std::string& asks, const std::string& others, std::uint
   const std::uint64_t with = LeastFor(asks), without = LeastFor(others);
   EXPECT_GE(with, without + least);
   EXPECT_LE(with, without + least + least / 8 + 65536);
-  const std::string refusal = LoadError(asks, ErrorCode::OutOfMemory, {.memory_limit = with - 1});
+  const std::string refusal = LoadError(asks, ErrorCode::OutOfMemory, WithinMemory(with - 1));
   EXPECT_NE(refusal.find("this needs "), std::string::npos) << refusal;
   EXPECT_NE(refusal.find(" for the scene"), std::string::npos) << refusal;
   EXPECT_NE(refusal.find("and the memory limit is "), std::string::npos) << refusal;

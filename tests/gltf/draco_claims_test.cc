@@ -12,6 +12,7 @@ using testing::FileMaker;
 using testing::LoadBytes;
 using testing::LoadError;
 using testing::PackDraco;
+using testing::WithinMemory;
 
 enum Method : char { kSequential = 0, kEdgebreaker = 1 };
 constexpr std::uint64_t kMiB = 1 << 20;
@@ -51,12 +52,12 @@ std::string FileOf(const std::string& packed, std::size_t vertices = 3, std::siz
 }
 
 std::string Refusal(const std::string& packed, std::uint64_t limit) {
-  return LoadError(FileOf(packed), ErrorCode::OutOfMemory, {.memory_limit = limit});
+  return LoadError(FileOf(packed), ErrorCode::OutOfMemory, WithinMemory(limit));
 }
 
 // Within the limit, what is wrong with the data is what is said of it.
 void ExpectDamaged(const std::string& packed, std::uint64_t limit, const std::string& what = "Draco data is damaged") {
-  const std::string error = LoadError(FileOf(packed), ErrorCode::InvalidInput, {.memory_limit = limit});
+  const std::string error = LoadError(FileOf(packed), ErrorCode::InvalidInput, WithinMemory(limit));
   EXPECT_NE(error.find(what), std::string::npos) << error;
 }
 
@@ -126,7 +127,7 @@ TEST(DracoClaims, PointsAreCharged) {
   const std::string packed = Triangle(1);
   const std::string start = Header(kSequential) + Sequential(1, 3);
   ASSERT_EQ(packed.substr(0, start.size()), start);
-  EXPECT_EQ(LoadBytes(FileOf(packed), {.memory_limit = kMiB}).scene.meshes.at(0).primitives.at(0).positions.size(), 3u);
+  EXPECT_EQ(LoadBytes(FileOf(packed), WithinMemory(kMiB)).scene.meshes.at(0).primitives.at(0).positions.size(), 3u);
   // The same data, of a million points: 24 bytes of numbers and integers, and 16 of order, each.
   const std::string claims = Header(kSequential) + Sequential(1, 1'000'000) + packed.substr(start.size());
   ExpectIn("this needs 38.1 MiB for Draco data", Refusal(claims, 24 * kMiB));
@@ -137,7 +138,7 @@ TEST(DracoClaims, EveryAttributeIsCharged) {
   const std::string packed = Triangle(10);
   const std::string start = Header(kSequential) + Sequential(1, 3);
   ASSERT_EQ(packed.substr(0, start.size()), start);
-  EXPECT_EQ(LoadBytes(FileOf(packed), {.memory_limit = kMiB}).scene.meshes.at(0).primitives.at(0).positions.size(), 3u);
+  EXPECT_EQ(LoadBytes(FileOf(packed), WithinMemory(kMiB)).scene.meshes.at(0).primitives.at(0).positions.size(), 3u);
   // Ten times 38 MiB: they are announced before the first is read.
   const std::string claims = Header(kSequential) + Sequential(1, 1'000'000) + packed.substr(start.size());
   ExpectIn("for Draco data", Refusal(claims, 300 * kMiB));

@@ -381,8 +381,10 @@ void Compare(const std::filesystem::path& path, Tally& tally) {
     return;
   }
   Scene scene;
+  LoadOptions options;
+  options.ignore_required_extensions = true;
   try {
-    scene = LoadGltf(path, {.ignore_required_extensions = true}).scene;
+    scene = LoadGltf(path, options).scene;
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::Unsupported) << error.what();
     ++tally.unread;
