@@ -1,5 +1,5 @@
-// What JSON is charged is at least what the parser takes of the heap, at any moment. Every allocation of this program is
-// counted, as the allocator rounds it.
+// What JSON is charged is at least what the parser takes of the heap, at any moment. Every allocation of this program
+// is counted, as the allocator rounds it.
 #include <gtest/gtest.h>
 #include <malloc.h>
 
@@ -70,7 +70,8 @@ std::string Repeated(const std::string& part, int count, const std::string& betw
 std::string List(const std::string& element, int count) { return '[' + Repeated(element, count, ",") + ']'; }
 
 TEST(JsonMemory, IsAtLeastWhatOneValueTakes) {
-  for (const char* text : {"0", "null", "true", "-1.5e300", "\"\"", "[]", "{}", "[[]]", "{\"\":{}}", "\"a\"", "\"\\u20ac\""}) {
+  for (const char* text :
+       {"0", "null", "true", "-1.5e300", "\"\"", "[]", "{}", "[[]]", "{\"\":{}}", "\"a\"", "\"\\u20ac\""}) {
     ExpectCharged(text, text);
   }
 }
@@ -165,7 +166,8 @@ TEST(JsonMemory, IsAtLeastWhatMixedValuesTake) {
   }
 }
 
-// And it is no wild guess: a list of numbers, the most of what large files have, is not charged ten times what it takes.
+// And it is no wild guess: a list of numbers, the most of what large files have, is not charged ten times what it
+// takes.
 TEST(JsonMemory, IsOfTheSizeOfWhatIsTaken) {
   for (const char* element : {"0.125", "{\"bufferView\":3,\"componentType\":5126,\"count\":24,\"type\":\"VEC3\"}",
                               "[0,1,2]", "\"a name of some length\""}) {

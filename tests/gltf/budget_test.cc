@@ -1,5 +1,5 @@
-// What a small file asks for is charged: where many parts of it share one, where no buffer holds the numbers, where they
-// must be put in order. Each pair of files differs in what is read, and in nothing else that takes memory.
+// What a small file asks for is charged: where many parts of it share one, where no buffer holds the numbers, where
+// they must be put in order. Each pair of files differs in what is read, and in nothing else that takes memory.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,8 +21,8 @@ std::uint64_t LeastFor(const std::string& bytes) {
   return LeastLimit([&](std::uint64_t limit) { LoadGltf(path, WithinMemory(limit)); });
 }
 
-// The scene of `asks` takes from `least` bytes up to an eighth more than that of `others`, whose length is the same; with
-// one byte less it is refused by its size.
+// The scene of `asks` takes from `least` bytes up to an eighth more than that of `others`, whose length is the same;
+// with one byte less it is refused by its size.
 void ExpectCharged(const std::string& asks, const std::string& others, std::uint64_t least) {
   ASSERT_EQ(asks.size(), others.size());
   const std::uint64_t with = LeastFor(asks), without = LeastFor(others);
@@ -60,8 +60,9 @@ std::string SparseFile(bool ascending, int primitives) {
   FileMaker file;
   const std::string index_view = std::to_string(file.View(bytes(targets)));
   const std::string value_view = std::to_string(file.View(bytes(values)));
-  const std::string sparse = ",\"sparse\":{\"count\":" + std::to_string(kSparse) + ",\"indices\":{\"bufferView\":" +
-                             index_view + ",\"componentType\":5125},\"values\":{\"bufferView\":" + value_view + "}}";
+  const std::string sparse = ",\"sparse\":{\"count\":" + std::to_string(kSparse) +
+                             ",\"indices\":{\"bufferView\":" + index_view +
+                             ",\"componentType\":5125},\"values\":{\"bufferView\":" + value_view + "}}";
   file.Attribute("POSITION", file.Accessor(-1, 5126, kSparse, "VEC3", sparse));
   const std::string corners =
       std::to_string(file.Accessor(file.View(testing::Pack<std::uint8_t>({0, 1, 2})), 5121, 3, "SCALAR"));
@@ -107,9 +108,10 @@ TEST(Budget, CountsAPrimitivesMaterialsByVariant) {
   }
   std::string names = "{\"name\":\"a\"}";
   for (std::size_t i = 1; i < kVariants; ++i) names += ",{\"name\":\"a\"}";
-  file.RootMore() = ",\"materials\":[{}],\"extensionsUsed\":[\"KHR_materials_variants\"],\"extensions\":{\"KHR_"
-                    "materials_variants\":{\"variants\":[" +
-                    names + "]}}";
+  file.RootMore() =
+      ",\"materials\":[{}],\"extensionsUsed\":[\"KHR_materials_variants\"],\"extensions\":{\"KHR_"
+      "materials_variants\":{\"variants\":[" +
+      names + "]}}";
   const std::string asks = file.AsGlb();
   EXPECT_EQ(LoadBytes(asks).scene.meshes[0].primitives.back().variant_materials.size(), kVariants);
   ExpectCharged(asks, Without(asks, "mappings"), kVariants * kPrimitives * sizeof(int));

@@ -73,7 +73,8 @@ TEST(DracoClaims, FacesThatNoDataOfThatSizeHoldsAreRefused) {
 }
 
 TEST(DracoClaims, FacesAreCharged) {
-  for (const std::string& claims : {Header(kSequential) + Sequential(100'000, 3), Header(kEdgebreaker) + Edgebreaker(100'000, 0)}) {
+  for (const std::string& claims :
+       {Header(kSequential) + Sequential(100'000, 3), Header(kEdgebreaker) + Edgebreaker(100'000, 0)}) {
     const std::string packed = claims + Padding(1000);
     ExpectIn("this needs 12.2 MiB for Draco data", Refusal(packed, 8 * kMiB));
     ExpectDamaged(packed, 64 * kMiB);

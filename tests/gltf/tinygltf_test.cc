@@ -1,5 +1,5 @@
-// Another reader's opinion: what tinygltf says of real files, and what facet says, are the same numbers. tinygltf hands out
-// a file as it stands, so that this test states for itself what the elements of an accessor are, and nothing of
+// Another reader's opinion: what tinygltf says of real files, and what facet says, are the same numbers. tinygltf hands
+// out a file as it stands, so that this test states for itself what the elements of an accessor are, and nothing of
 // facet's reader helps it.
 #include <gtest/gtest.h>
 
@@ -67,7 +67,8 @@ void ExpectSameNodes(const tinygltf::Model& model, const Scene& scene) {
 
 // Elements of facet's arrays are those of the file from `first` on, each number within `tolerance`.
 template <class T>
-void ExpectSame(const std::vector<T>& ours, const Table& theirs, std::size_t first, double tolerance, const char* what) {
+void ExpectSame(const std::vector<T>& ours, const Table& theirs, std::size_t first, double tolerance,
+                const char* what) {
   ASSERT_LE(first + ours.size(), theirs.count) << what;
   const auto width = std::min(theirs.width, static_cast<std::size_t>(T::length()));
   for (std::size_t i = 0; i < ours.size(); ++i) {
@@ -85,8 +86,9 @@ std::size_t Whole(int mode, std::size_t corners) {
 }
 
 Topology TopologyOf(int mode) {
-  constexpr Topology kModes[] = {Topology::Points,    Topology::Lines,         Topology::LineLoop,   Topology::LineStrip,
-                                 Topology::Triangles, Topology::TriangleStrip, Topology::TriangleFan};
+  constexpr Topology kModes[] = {Topology::Points,     Topology::Lines,     Topology::LineLoop,
+                                 Topology::LineStrip,  Topology::Triangles, Topology::TriangleStrip,
+                                 Topology::TriangleFan};
   return kModes[mode < 0 ? TINYGLTF_MODE_TRIANGLES : mode];
 }
 
@@ -228,8 +230,7 @@ void ExpectSameTexture(const TextureRef& ours, const Info& theirs, const char* w
   EXPECT_EQ(ours.tex_coord, value.Has("texCoord") ? value.Get("texCoord").GetNumberAsInt() : theirs.texCoord) << what;
   EXPECT_EQ(ours.offset, pair("offset", 0.0)) << what;
   EXPECT_EQ(ours.scale, pair("scale", 1.0)) << what;
-  EXPECT_EQ(ours.rotation,
-            value.Has("rotation") ? static_cast<float>(value.Get("rotation").GetNumberAsDouble()) : 0.0f)
+  EXPECT_EQ(ours.rotation, value.Has("rotation") ? static_cast<float>(value.Get("rotation").GetNumberAsDouble()) : 0.0f)
       << what;
 }
 

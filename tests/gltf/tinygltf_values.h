@@ -85,7 +85,8 @@ inline Table ValuesOf(const tinygltf::Model& model, int index) {
       }
     }
   };
-  if (accessor.bufferView >= 0) read(accessor.bufferView, accessor.byteOffset, table.count, [](std::size_t k) { return k; });
+  if (accessor.bufferView >= 0)
+    read(accessor.bufferView, accessor.byteOffset, table.count, [](std::size_t k) { return k; });
   if (accessor.sparse.isSparse) {
     const auto& indices = accessor.sparse.indices;
     const tinygltf::BufferView& view = model.bufferViews.at(static_cast<std::size_t>(indices.bufferView));

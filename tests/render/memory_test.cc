@@ -10,7 +10,6 @@
 namespace facet {
 namespace {
 
-
 constexpr std::uint64_t kMiB = 1 << 20;
 
 std::string Refusal(const Scene& scene, RenderSettings settings, std::uint64_t limit) {
@@ -48,7 +47,8 @@ TEST(FrameMemory, CountsDrawables) {
 
 TEST(FrameMemory, CountsVerticesOfEveryInstance) {
   constexpr std::uint64_t kInstances = 200, kVertices = 5000;
-  const std::uint64_t one = Least(Instances(1, kVertices), Small()), many = Least(Instances(kInstances, kVertices), Small());
+  const std::uint64_t one = Least(Instances(1, kVertices), Small()),
+                      many = Least(Instances(kInstances, kVertices), Small());
   EXPECT_GE(many, one + (kInstances - 1) * kVertices * sizeof(ScreenVertex));
   const std::string refusal = Refusal(Instances(kInstances, kVertices), Small(), one + 4 * kMiB);
   EXPECT_NE(refusal.find("15.3 MiB for vertices on the screen"), std::string::npos) << refusal;

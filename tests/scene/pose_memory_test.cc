@@ -1,5 +1,5 @@
-// What posing a scene takes is charged before it is made: a few nodes may ask for any number of drawables, joint matrices
-// and deformed copies.
+// What posing a scene takes is charged before it is made: a few nodes may ask for any number of drawables, joint
+// matrices and deformed copies.
 #include <gtest/gtest.h>
 
 #include "base/bytes_text.h"
@@ -9,7 +9,6 @@
 
 namespace facet {
 namespace {
-
 
 constexpr std::uint64_t kMiB = 1 << 20;
 
@@ -26,7 +25,8 @@ TEST(PoseMemory, CountsInstancesTimesPrimitives) {
   scene.meshes[0].primitives.resize(100, Triangle());
   scene.nodes[0].instances.resize(100);
   EXPECT_EQ(Pose(scene, {}).drawables.size(), 10000u);
-  ExpectCharged(scene, kMiB, 16 * kMiB, "this needs " + BytesText(10000.0 * (sizeof(Drawable) + 64)) + " for drawables");
+  ExpectCharged(scene, kMiB, 16 * kMiB,
+                "this needs " + BytesText(10000.0 * (sizeof(Drawable) + 64)) + " for drawables");
 }
 
 TEST(PoseMemory, CountsNodesTimesPrimitives) {
