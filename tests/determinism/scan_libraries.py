@@ -50,6 +50,7 @@ LIBRARIES = {
     "libz": [],
     "libdeflate": [],
     "libwebp": [Allowed("log|log10|pow", ".*", "encoders, measures of their loss")],
+    "libwebpdemux": [],
     "libOpenEXR": [
         Allowed("acosf|asinf|atan2f|sincosf", ".*LatLongMap.*", "directions, which facet computes itself"),
         Allowed("logf|pow", ".*round12log.*", "a function for those who write files"),
