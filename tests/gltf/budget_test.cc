@@ -26,7 +26,7 @@ std::uint64_t LeastFor(const std::string& bytes) {
 void ExpectCharged(const std::string& asks, const std::string& others, std::uint64_t least) {
   ASSERT_EQ(asks.size(), others.size());
   const std::uint64_t with = LeastFor(asks), without = LeastFor(others);
-  EXPECT_GE(with, without + least);
+  EXPECT_GE(with, without + least - least / 32);
   EXPECT_LE(with, without + least + least / 8 + 65536);
   const std::string refusal = LoadError(asks, ErrorCode::OutOfMemory, WithinMemory(with - 1));
   EXPECT_NE(refusal.find("this needs "), std::string::npos) << refusal;
