@@ -124,7 +124,7 @@ TEST_F(ManifestFile, AHundredThousandEntriesAreReadAndCharged) {
   // The JSON alone does not fit, then the entries that are made of it.
   EXPECT_NE(MemoryRefusalUnder(std::uint64_t{1} << 24, [&] { ReadManifest(path); }).find(" for JSON"),
             std::string::npos);
-  const std::string refusal = MemoryRefusalUnder(std::uint64_t{160} << 20, [&] { ReadManifest(path); });
+  const std::string refusal = MemoryRefusalUnder(std::uint64_t{320} << 20, [&] { ReadManifest(path); });
   EXPECT_NE(refusal.find(" for entries"), std::string::npos) << refusal;
 }
 
