@@ -214,8 +214,9 @@ Packed PackAll(const Sheet& sheet, int bits, const testing::DracoPacking& packin
 }
 
 constexpr testing::DracoPacking kPackings[] = {
-    {draco::MESH_EDGEBREAKER_ENCODING, 0},  {draco::MESH_EDGEBREAKER_ENCODING, 5}, {draco::MESH_EDGEBREAKER_ENCODING, 10},
-    {draco::MESH_SEQUENTIAL_ENCODING, 0},   {draco::MESH_SEQUENTIAL_ENCODING, 5},  {draco::MESH_SEQUENTIAL_ENCODING, 10}};
+    {draco::MESH_EDGEBREAKER_ENCODING, 0},  {draco::MESH_EDGEBREAKER_ENCODING, 5},
+    {draco::MESH_EDGEBREAKER_ENCODING, 10}, {draco::MESH_SEQUENTIAL_ENCODING, 0},
+    {draco::MESH_SEQUENTIAL_ENCODING, 5},   {draco::MESH_SEQUENTIAL_ENCODING, 10}};
 
 // Those of four numbers. Directions are left as they are where the grid is fine enough for them to stay unit.
 TEST(Draco, QuantisedTangentsColorsAndWeightsAreTheFormula) {
