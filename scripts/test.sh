@@ -48,7 +48,8 @@ for preset in "${presets[@]}"; do
   if ! ctest "${arguments[@]}" | tee "$log"; then
     failed+=("$preset")
   fi
-  summary+=("$preset: $(grep -E 'tests passed|No tests were found' "$log" | tail -1 || true)")
+  skipped=$(grep -cF '***Skipped' "$log" || true)
+  summary+=("$preset: $(grep -E 'tests passed|No tests were found' "$log" | tail -1 || true), $skipped skipped")
   rm -f "$log"
 done
 

@@ -48,6 +48,7 @@ struct CheckedEntry {
   std::optional<Digest> expected_film;        // as the manifest had it
   std::optional<ImageDifference> difference;  // to the golden picture, where they were compared; its flip_map is empty
   std::vector<std::string> warnings;          // of loading and rendering
+  std::vector<std::filesystem::path> files;   // that it was made from, the golden picture among them
   // PNG files, with CheckOptions::pictures, of entries that were rendered and not equal. Empty: there is no such
   // picture.
   std::vector<std::byte> expected, actual, heat_map;

@@ -90,7 +90,8 @@ struct ErrorReport {
     double relative_error = 0.0;
     std::vector<std::string> notes;
   } reference;
-  std::vector<std::string> warnings;  // of loading and rendering; not stored
+  std::vector<std::string> warnings;         // of loading and rendering; not stored
+  std::vector<std::filesystem::path> files;  // that the scene was read from; not stored
   // The same algorithm on lanes of floats and in double: the rounding error, apart from the approximations'.
   std::optional<FilmError> rounding;
   std::vector<ReportPoint> points;  // points[0] has the settings asked for

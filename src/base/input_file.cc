@@ -48,7 +48,7 @@ Bytes Map([[maybe_unused]] int file, [[maybe_unused]] std::size_t size) {
   void* const memory = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file, 0);
   if (memory != MAP_FAILED) {
     std::shared_ptr<const void> owner(memory, [size](void* p) { ::munmap(p, size); });
-    return {std::move(owner), static_cast<const std::byte*>(memory), size};
+    return {std::move(owner), static_cast<const std::byte*>(memory), size, true};
   }
 #endif
   return {};
@@ -87,7 +87,9 @@ Bytes ReadStream(int file, std::size_t most, const std::string& name, const Fail
 // Whether `path`, with its links followed, is `folder` or lies in it.
 bool LiesIn(const fs::path& path, const fs::path& folder) {
   std::error_code ignored;
-  const fs::path relative = fs::weakly_canonical(path, ignored).lexically_relative(fs::canonical(folder, ignored));
+  // Absolute first: of a relative name that is not there yet the canonical form is relative as well.
+  const fs::path real = fs::weakly_canonical(fs::absolute(path, ignored), ignored);
+  const fs::path relative = real.lexically_relative(fs::canonical(folder, ignored));
   return !relative.empty() && *relative.begin() != "..";
 }
 
@@ -135,6 +137,10 @@ Bytes ReadFile(const fs::path& path, const ReadOptions& options, std::uintmax_t*
 }
 
 fs::path DataPath(const fs::path& named_by, const fs::path& name, const fs::path& root) {
+  // A zero would end the name early for the operating system, and name another file than messages do.
+  if (name.native().find('\0') != std::string::npos) {
+    throw Error(ErrorCode::InvalidInput, Quoted(name.string()) + " is no file's name", Printable(named_by.string()));
+  }
   const fs::path folder = named_by.has_parent_path() ? named_by.parent_path() : fs::path(".");
   const fs::path path = named_by.parent_path() / name;
   std::error_code ignored;

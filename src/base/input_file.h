@@ -16,11 +16,12 @@ struct Bytes {
   std::shared_ptr<const void> owner;
   const std::byte* data = nullptr;
   std::size_t size = 0;
+  bool is_mapped = false;  // a file's pages, which take no memory of their own
 
   std::span<const std::byte> Span() const { return {data, size}; }
   std::string_view Text() const { return {reinterpret_cast<const char*>(data), size}; }
   // The caller has checked offset + length <= size.
-  Bytes Slice(std::size_t offset, std::size_t length) const { return {owner, data + offset, length}; }
+  Bytes Slice(std::size_t offset, std::size_t length) const { return {owner, data + offset, length, is_mapped}; }
 };
 
 struct MutableBytes {

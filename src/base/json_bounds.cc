@@ -7,7 +7,7 @@
 namespace facet {
 
 bool IsJsonDeeperThan(std::string_view text, int levels) {
-  int depth = 0;
+  std::int64_t depth = 0;
   bool in_string = false;
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];

@@ -24,7 +24,7 @@ void MemoryBudget::Charge(std::uint64_t count, std::uint64_t size_each, std::str
   const std::uint64_t bytes = Product(count, size_each);
   const std::lock_guard lock(mutex_);
   auto part = std::find_if(parts_.begin(), parts_.end(), [&](const auto& known) { return known.first == what; });
-  if (bytes <= limit_ - sum_) {
+  if (bytes <= limit_ - sum_ && bytes != kMost) {
     if (!adds_up_) return;
     if (part == parts_.end()) part = parts_.emplace(part, what, 0);
     part->second += bytes;

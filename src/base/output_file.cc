@@ -13,6 +13,8 @@
 #include <cstdio>
 #include <cstring>
 #include <ctime>
+#include <mutex>
+#include <set>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -50,7 +52,15 @@ fs::path FolderOf(const fs::path& path) { return path.has_parent_path() ? path.p
 
 // Removes temporary files that no process has locked: their writers were killed. Only those of this user, and of a
 // folder with very many files only what comes first, because the next picture shall not wait for that.
+// Once a process: whoever writes a thousand files to one folder need not look a thousand times.
 void RemoveAbandonedFiles(const fs::path& folder) {
+  static std::mutex mutex;
+  static std::set<fs::path> looked_at;
+  std::error_code ignored;
+  {
+    const std::lock_guard lock(mutex);
+    if (!looked_at.insert(fs::absolute(folder, ignored)).second) return;
+  }
   constexpr int kMostEntries = 65536;
   DIR* const list = ::opendir(folder.c_str());
   if (list == nullptr) return;
@@ -106,18 +116,27 @@ std::pair<fs::path, Kind> Follow(fs::path path) {
   constexpr int kMostLinks = 40;  // as Linux
   std::error_code ignored;
   for (int i = 0; i < kMostLinks && fs::is_symlink(fs::symlink_status(path, ignored)); ++i) {
+    // /dev/fd/3 is a link of /proc, which says "pipe:[123]" of what has no name.
+    const fs::path folder = fs::canonical(FolderOf(path), ignored);
+    if (folder.string().starts_with("/proc/")) return {path, Kind::ProcessFile};
     const fs::path next = fs::read_symlink(path, ignored);
     path = next.is_absolute() ? next : path.parent_path() / next;
-    if (path.string().starts_with("/proc/")) return {path, Kind::ProcessFile};
   }
   const fs::file_status status = fs::symlink_status(path, ignored);
-  const bool special = fs::is_fifo(status) || fs::is_character_file(status);
-  return {path, special ? Kind::Special : Kind::Plain};
+  const bool plain = !fs::exists(status) || fs::is_regular_file(status) || fs::is_directory(status) || fs::is_symlink(status);
+  return {path, plain ? Kind::Plain : Kind::Special};
+}
+
+// Of a file that is not there yet.
+fs::path Canonical(const fs::path& path) {
+  std::error_code ignored;
+  return fs::weakly_canonical(fs::absolute(path, ignored), ignored);
 }
 
 }  // namespace
 
 OutputFile::OutputFile(const fs::path& path, Links links) : name_(Printable(path.string())) {
+  if (path.native().find('\0') != std::string::npos) Fail(EINVAL);  // it would name another file
   if (links == Links::Refuse) {
     std::error_code ignored;
     const fs::file_type type = fs::symlink_status(path, ignored).type();
@@ -154,6 +173,7 @@ void OutputFile::Open(const fs::path& target) {
       unfinished_.reset();
       Fail(error);
     }
+    unfinished_->WasMade();
     // Another process may have taken the file for an abandoned one before it was locked.
     ::flock(descriptor_, LOCK_EX);
     struct stat status {};
@@ -246,27 +266,36 @@ void CheckWritable(const fs::path& path) {
   }
 }
 
-void RefuseOverwriting(const std::vector<fs::path>& outputs, const std::vector<fs::path>& inputs) {
-  std::error_code ignored;
-  // Of files that are not there yet the names are compared.
-  const auto same = [&](const fs::path& a, const fs::path& b) {
-    if (fs::exists(a, ignored)) return fs::equivalent(a, b, ignored);
-    return fs::weakly_canonical(a, ignored) == fs::weakly_canonical(b, ignored);
-  };
-  for (std::size_t i = 0; i < outputs.size(); ++i) {
-    if (!IsPlainFile(outputs[i])) continue;
-    const std::string name = Printable(outputs[i].string());
-    for (std::size_t k = 0; k < i; ++k) {
-      if (same(outputs[i], outputs[k])) {
-        throw Error(ErrorCode::InvalidUsage, "is given for two outputs", name, "give each a name of its own");
-      }
+bool FileSet::Add(const fs::path& path) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) == 0) return there_.emplace(status.st_dev, status.st_ino).second;
+  return named_.insert(Canonical(path)).second;
+}
+
+bool FileSet::Has(const fs::path& path) const {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) == 0) return there_.count({status.st_dev, status.st_ino}) > 0;
+  return named_.count(Canonical(path)) > 0;
+}
+
+void RefuseOverwriting(const std::vector<fs::path>& outputs, const FileSet& inputs) {
+  FileSet before;
+  for (const fs::path& output : outputs) {
+    if (!IsPlainFile(output)) continue;
+    const std::string name = Printable(output.string());
+    if (!before.Add(output)) {
+      throw Error(ErrorCode::InvalidUsage, "is given for two outputs", name, "give each a name of its own");
     }
-    for (const fs::path& input : inputs) {
-      if (same(outputs[i], input)) {
-        throw Error(ErrorCode::InvalidUsage, "is also an input, and would be overwritten", name, "give another name");
-      }
+    if (inputs.Has(output)) {
+      throw Error(ErrorCode::InvalidUsage, "is also an input, and would be overwritten", name, "give another name");
     }
   }
+}
+
+void RefuseOverwriting(const std::vector<fs::path>& outputs, const std::vector<fs::path>& inputs) {
+  FileSet files;
+  for (const fs::path& input : inputs) files.Add(input);
+  RefuseOverwriting(outputs, files);
 }
 
 }  // namespace facet

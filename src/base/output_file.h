@@ -7,8 +7,10 @@
 #include <initializer_list>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/unfinished_files.h"
@@ -68,9 +70,22 @@ bool IsPlainFile(const std::filesystem::path& path);
 // may not be written to, or there is a folder of that name.
 void CheckWritable(const std::filesystem::path& path);
 
+// Files, whatever their names: links of both kinds are the file that they lead to. Those that are not there are told
+// apart by their names.
+class FileSet {
+ public:
+  bool Add(const std::filesystem::path& path);  // false: it was in the set
+  bool Has(const std::filesystem::path& path) const;
+
+ private:
+  std::set<std::pair<std::uint64_t, std::uint64_t>> there_;  // device and inode
+  std::set<std::filesystem::path> named_;
+};
+
 // Throws Error(InvalidUsage) when two of `outputs` are the same file, or one of them is the same file as one of
 // `inputs`, under whatever names.
 void RefuseOverwriting(const std::vector<std::filesystem::path>& outputs,
                        const std::vector<std::filesystem::path>& inputs);
+void RefuseOverwriting(const std::vector<std::filesystem::path>& outputs, const FileSet& inputs);
 
 }  // namespace facet

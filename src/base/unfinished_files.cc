@@ -41,6 +41,12 @@ UnfinishedFile::UnfinishedFile(const std::filesystem::path& path) {
   while (ending) ::pause();
 }
 
+void UnfinishedFile::WasMade() const {
+  if (!ending) return;
+  if (slot_ >= 0) ::unlink(slots[static_cast<std::size_t>(slot_)].path);
+  for (;;) ::pause();
+}
+
 UnfinishedFile::~UnfinishedFile() {
   if (slot_ >= 0) slots[static_cast<std::size_t>(slot_)].state = SlotState::Free;
 }

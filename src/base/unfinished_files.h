@@ -11,6 +11,8 @@ class UnfinishedFile {
  public:
   explicit UnfinishedFile(const std::filesystem::path& path);
   ~UnfinishedFile();
+  // To be called when the file has been made: waits for the end where that has begun meanwhile.
+  void WasMade() const;
   UnfinishedFile(const UnfinishedFile&) = delete;
   UnfinishedFile& operator=(const UnfinishedFile&) = delete;
 

@@ -1,6 +1,8 @@
 #include "cli/check_command.h"
 
 #include <algorithm>
+#include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <system_error>
@@ -78,15 +80,16 @@ std::string Json(const CheckReport& report) {
   return json.dump(2, ' ', false, Ordered::error_handler_t::replace) + "\n";
 }
 
-void WritePictures(const CheckReport& report, const std::filesystem::path& folder) {
-  const auto write = [&](const std::string& name, const std::vector<std::byte>& png) {
-    if (!png.empty()) WriteFile(folder / name, png, OutputFile::Links::Refuse);
-  };
+// By the files that they are to be in.
+std::map<std::filesystem::path, const std::vector<std::byte>*> PicturesOf(const CheckReport& report,
+                                                                          const std::filesystem::path& folder) {
+  std::map<std::filesystem::path, const std::vector<std::byte>*> pictures;
   for (const CheckedEntry& entry : report.entries) {
     if (entry.verdict != Verdict::Failed) continue;
-    write(entry.name + ".actual.png", entry.actual);
-    write(entry.name + ".difference.png", entry.heat_map);
+    if (!entry.actual.empty()) pictures[folder / (entry.name + ".actual.png")] = &entry.actual;
+    if (!entry.heat_map.empty()) pictures[folder / (entry.name + ".difference.png")] = &entry.heat_map;
   }
+  return pictures;
 }
 
 }  // namespace
@@ -112,7 +115,13 @@ int RunCheck(const CheckCommandOptions& options) {
     for (const std::string& warning : entry.warnings) PrintWarning(entry.name + ": " + warning);
     if (entry.verdict == Verdict::Error) PrintError(entry.place + ": " + entry.message);
   }
-  if (options.output) WritePictures(report, *options.output);
+  std::map<std::filesystem::path, const std::vector<std::byte>*> pictures;
+  if (options.output) pictures = PicturesOf(report, *options.output);
+  for (const auto& [path, png] : pictures) outputs.push_back(path);
+  std::vector<std::filesystem::path> inputs = {options.manifest};
+  for (const CheckedEntry& entry : report.entries) inputs.insert(inputs.end(), entry.files.begin(), entry.files.end());
+  RefuseOverwriting(outputs, inputs);
+  for (const auto& [path, png] : pictures) WriteFile(path, *png, OutputFile::Links::Refuse);
   if (options.html) WriteFile(*options.html, CheckHtml(report));
   if (options.junit) WriteFile(*options.junit, JUnitXml(report));
   if (!report.problems.empty() || report.Count(Verdict::Error) > 0) return kFailed;

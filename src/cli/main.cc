@@ -74,7 +74,7 @@ int main(int argc, char** argv) {
   HandleSignals();
   return Guarded([&] {
     const Command command = ParseCommandLine(argc, argv);
-    LimitMemory(MemoryLimitOf(command));
+    LimitMemory(MemoryLimitOf(command), ThreadsOf(command));
     return std::visit(Run{}, command);
   });
 }

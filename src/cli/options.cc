@@ -333,11 +333,23 @@ struct Limit {
   }
 };
 
+struct Threads {
+  int operator()(const TextRequest&) const { return 0; }
+  int operator()(const InfoOptions&) const { return 0; }
+  int operator()(const DiffOptions&) const { return 0; }
+  int operator()(const VerifyOptions& options) const { return options.threads; }
+  int operator()(const CheckCommandOptions& options) const { return options.check.threads; }
+  template <class Options>
+  int operator()(const Options& options) const {
+    return options.request.settings.threads;
+  }
+};
+
 }  // namespace
 
-std::uint64_t MemoryLimitOf(const Command& command) {
-  return std::visit(Limit(), command);
-}
+std::uint64_t MemoryLimitOf(const Command& command) { return std::visit(Limit(), command); }
+
+int ThreadsOf(const Command& command) { return std::visit(Threads(), command); }
 
 Command ParseCommandLine(int argc, const char* const* argv) {
   // "facet help" and "facet help render", as people try first.

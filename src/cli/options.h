@@ -90,6 +90,8 @@ using Command = std::variant<TextRequest, RenderOptions, InfoOptions, ExplainOpt
 
 // --memory-limit, in bytes; 0: none was given.
 std::uint64_t MemoryLimitOf(const Command& command);
+// --threads; 0: one per core.
+int ThreadsOf(const Command& command);
 
 // Throws Error(InvalidUsage).
 Command ParseCommandLine(int argc, const char* const* argv);

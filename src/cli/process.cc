@@ -3,6 +3,8 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <atomic>
 #include <csignal>
 #include <string_view>
 #include <thread>
@@ -21,8 +23,10 @@ void OnEnd(int signal) {
   std::raise(signal);
 }
 
-// A page of a mapped file that is no longer there.
+// A page of a mapped file that is no longer there. Several threads may meet one: the first speaks.
 void OnBusError(int) {
+  static std::atomic_flag met = ATOMIC_FLAG_INIT;
+  while (met.test_and_set()) ::pause();
   RemoveUnfinishedFiles();
   constexpr std::string_view kLine =
       "facet: a file was cut short while it was in use; leave inputs as they are, or read them whole with --no-mmap\n";
@@ -30,14 +34,14 @@ void OnBusError(int) {
   ::_exit(ExitCode(ErrorCode::NotFound));
 }
 
-void Handle(int signal, void (*handler)(int)) {
+void Handle(int signal, void (*handler)(int), int flags) {
   struct sigaction before {};
   // What the caller has switched off, as nohup does, stays so.
   if (::sigaction(signal, nullptr, &before) != 0 || before.sa_handler == SIG_IGN) return;
   struct sigaction action {};
   action.sa_handler = handler;
   ::sigemptyset(&action.sa_mask);
-  action.sa_flags = static_cast<int>(SA_RESETHAND | SA_NODEFER);
+  action.sa_flags = flags;
   ::sigaction(signal, &action, nullptr);
 }
 
@@ -45,24 +49,25 @@ void Handle(int signal, void (*handler)(int)) {
 
 void HandleSignals() {
   for (const int signal : {SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGPIPE, SIGALRM, SIGXCPU, SIGUSR1, SIGUSR2}) {
-    Handle(signal, OnEnd);
+    Handle(signal, OnEnd, static_cast<int>(SA_RESETHAND | SA_NODEFER));
   }
-  Handle(SIGBUS, OnBusError);
+  Handle(SIGBUS, OnBusError, 0);
   std::signal(SIGXFSZ, SIG_IGN);
 }
 
-void LimitMemory(std::uint64_t limit) {
+void LimitMemory(std::uint64_t limit, int threads) {
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && !defined(FACET_SANITIZED)
   constexpr std::uint64_t kProgram = std::uint64_t{96} << 20, kStack = std::uint64_t{9} << 20;
   if (limit == 0) limit = DefaultMemoryLimit();
   // The libraries' own, a stack for each thread, and what the heap holds that is free but in pieces.
-  const std::uint64_t all = limit + limit / 4 + kProgram + std::thread::hardware_concurrency() * kStack;
+  const std::uint64_t stacks = std::max<std::uint64_t>(std::thread::hardware_concurrency(), std::uint64_t(threads));
+  const std::uint64_t all = limit + limit / 4 + kProgram + stacks * kStack;
   rlimit data{};
   if (::getrlimit(RLIMIT_DATA, &data) != 0 || all >= data.rlim_cur) return;
   data.rlim_cur = all;
   ::setrlimit(RLIMIT_DATA, &data);
 #else
-  static_cast<void>(limit);  // a sanitizer's own memory is beyond any limit
+  static_cast<void>(limit), static_cast<void>(threads);  // a sanitizer's own memory is beyond any limit
 #endif
 }
 

@@ -10,7 +10,8 @@ namespace facet::cli {
 void HandleSignals();
 
 // A second line behind the library's own accounts: what libraries allocate that it does not know of fails too, with
-// std::bad_alloc, when it goes far beyond `limit` bytes (0: DefaultMemoryLimit()).
-void LimitMemory(std::uint64_t limit);
+// std::bad_alloc, when it goes far beyond `limit` bytes (0: DefaultMemoryLimit()). The stacks of `threads` (0: one per
+// core) are not counted: a thread that cannot be made ends the process.
+void LimitMemory(std::uint64_t limit, int threads);
 
 }  // namespace facet::cli

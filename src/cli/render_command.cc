@@ -232,7 +232,7 @@ void RenderToFile(RenderOptions& options) {
   if (options.bound.max_relative_rmse || options.bound.max_seconds) {
     const Choice choice = ChooseApproximations(options);
     if (!choice.kept) {
-      PrintWarning(choice.why);
+      cli::PrintWarnings({choice.why}, options.strict, options.input.string());
     } else if (!options.quiet) {
       PrintNote(choice.why);
     }

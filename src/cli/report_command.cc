@@ -85,12 +85,11 @@ void RunReport(const ReportOptions& options) {
   RefuseOverwriting(options.outputs, {options.input});
   const ErrorReport report =
       Measure(options.input, options.request, options.load, options.budget_seconds, {}, options.quiet);
+  if (!options.quiet || options.strict) PrintWarnings(report.warnings, options.strict, options.input.string());
+  RefuseOverwriting(options.outputs, report.files);
   for (const std::filesystem::path& output : options.outputs) {
     const std::string text = WriterFor(output)(report);
     WriteFile(output, text);
-  }
-  for (const std::string& warning : report.warnings) {
-    if (!options.quiet) PrintWarning(warning);
   }
   const std::size_t pixels = std::size_t(report.width) * std::size_t(report.height);
   if (report.reference.pixels < pixels && !options.quiet) {

@@ -149,8 +149,10 @@ const AccessorView& AccessorReader::View(int index) {
   if (!known.view) {
     const Place list_place(context_.place, "accessors");
     const Place place(list_place, i);
+    const std::size_t before = context_.Charged();
     context_.Charge(1, sizeof(AccessorView), place);
     known.view = std::make_shared<const AccessorView>(MakeView(i, place));
+    context_.KeepSince(before);
   }
   return *known.view;
 }
@@ -243,7 +245,7 @@ void AccessorReader::CheckUnused() {
   for (std::size_t i = 0; i < accessors_.size(); ++i) {
     if (accessors_[i].is_used) continue;
     const Place place(list_place, i);
-    context_.Try(false, place, "nothing reads it", [&] {
+    context_.TryUnused(place, "nothing reads it", [&] {
       const AccessorInfo info = Describe(static_cast<int>(i));
       if (info.view < 0) return;
       const std::size_t stride = buffers_.Describe(info.view).stride;

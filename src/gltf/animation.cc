@@ -72,7 +72,6 @@ class AnimationReader {
     const Json* channels = LenientArray(object_, "channels", place_);
     samplers_ = LenientArray(object_, "samplers", place_);
     const Place channels_place(place_, "channels");
-    std::set<std::pair<int, AnimationPath>> taken;
     for (std::size_t c = 0; channels && c < channels->size(); ++c) {
       const Place place(channels_place, c);
       std::optional<AnimationChannel> channel;
@@ -80,12 +79,7 @@ class AnimationReader {
         CheckObject((*channels)[c], place);
         channel = ReadChannel((*channels)[c], place);
       });
-      if (!channel) continue;
-      if (taken.insert({channel->node, channel->path}).second) {
-        animation.channels.push_back(*std::move(channel));
-      } else {
-        place.Warn("ignored: an earlier channel moves the same");
-      }
+      if (channel) animation.channels.push_back(*std::move(channel));
     }
     return animation;
   }
@@ -113,12 +107,19 @@ class AnimationReader {
   std::optional<AnimationChannel> ReadChannel(const Json& object, const Place& place) {
     const auto target = ReadTarget(RequireObject(object, "target", place), Place(place, "target"));
     if (!target) return std::nullopt;
+    const std::pair key(target->node, target->shape.path);
+    if (taken_.count(key) > 0) {
+      place.Warn("ignored: an earlier channel moves the same");
+      return std::nullopt;
+    }
     const Place samplers_place(place_, "samplers");
     const int index = RequireIndex(object, "sampler", samplers_ ? samplers_->size() : 0, "samplers", place);
     const Place sampler_place(samplers_place, static_cast<std::size_t>(index));
     const Json& sampler = (*samplers_)[static_cast<std::size_t>(index)];
     CheckObject(sampler, sampler_place);
-    return ReadCurve(*target, sampler, sampler_place);
+    AnimationChannel channel = ReadCurve(*target, sampler, sampler_place);
+    taken_.insert(key);
+    return channel;
   }
 
   AnimationChannel ReadCurve(const Target& target, const Json& sampler, const Place& place) {
@@ -160,6 +161,7 @@ class AnimationReader {
   const Json& object_;
   const Place& place_;
   const Json* samplers_ = nullptr;
+  std::set<std::pair<int, AnimationPath>> taken_;  // by the channels so far
 };
 
 }  // namespace

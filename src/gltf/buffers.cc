@@ -44,22 +44,6 @@ BufferStore::BufferStore(Context& context, std::optional<Bytes> bin)
   }
   context.Charge(context.document.Count("bufferViews"), sizeof(View), views_place);
   views_.resize(context.document.Count("bufferViews"));
-  for (std::size_t i = 0; i < views_.size(); ++i) {
-    const Place place(views_place, i);
-    BufferView& view = views_[i].description;
-    try {
-      view = ReadDescription(context.Object("bufferViews", i), buffers_.size(), place);
-    } catch (const Error& error) {
-      views_[i].error = error;
-      continue;
-    }
-    const auto declared = buffers_[static_cast<std::size_t>(view.buffer)].declared_length;
-    if (declared && Available(*declared, view.offset, view.length) < view.length) {
-      place.Warn("its " + std::to_string(view.length) + " bytes from byte " + std::to_string(view.offset) +
-                 " on reach past the " + std::to_string(*declared) + " of buffers[" + std::to_string(view.buffer) +
-                 "]; those that are there are read");
-    }
-  }
 }
 
 Bytes BufferStore::Load(std::size_t index) {
@@ -116,10 +100,19 @@ Bytes BufferStore::Slice(std::size_t buffer, std::size_t offset, std::size_t len
 }
 
 const BufferView& BufferStore::Describe(int index) {
-  View& view = views_[static_cast<std::size_t>(index)];
-  view.is_used = true;
-  if (view.error) throw Error(*view.error);
-  return view.description;
+  const auto i = static_cast<std::size_t>(index);
+  std::optional<BufferView>& known = views_[i].description;
+  if (known) return *known;
+  const Place list_place(context_.place, "bufferViews");
+  const Place place(list_place, i);
+  const BufferView view = ReadDescription(context_.Object("bufferViews", i), buffers_.size(), place);
+  const auto declared = buffers_[static_cast<std::size_t>(view.buffer)].declared_length;
+  if (declared && Available(*declared, view.offset, view.length) < view.length) {
+    place.Warn("its " + std::to_string(view.length) + " bytes from byte " + std::to_string(view.offset) +
+               " on reach past the " + std::to_string(*declared) + " of buffers[" + std::to_string(view.buffer) +
+               "]; those that are there are read");
+  }
+  return known.emplace(view);
 }
 
 bool BufferStore::HasData(int index) {
@@ -148,7 +141,7 @@ std::string BufferStore::Shortage(int index) {
 std::optional<Bytes> BufferStore::Unpack(std::size_t index, const Place& place) {
   const Json* compression = ExtensionOf(context_.Object("bufferViews", index), kMeshopt, place);
   if (!compression) return std::nullopt;
-  const BufferView& view = views_[index].description;
+  const BufferView& view = Describe(static_cast<int>(index));
   const Place extensions_place(place, "extensions");
   const Place meshopt_place(extensions_place, kMeshopt);
   std::optional<Bytes> bytes;
@@ -162,8 +155,10 @@ std::optional<Bytes> BufferStore::Unpack(std::size_t index, const Place& place) 
     const Bytes packed =
         Slice(static_cast<std::size_t>(description.buffer), description.offset, description.length, meshopt_place);
     CheckMeshoptSize(description, meshopt_place);
+    const std::size_t before = context_.Charged();
     context_.Charge(description.count, description.stride, meshopt_place);
     bytes = DecodeMeshopt(description, packed, meshopt_place);
+    context_.KeepSince(before);
   });
   return bytes;
 }
@@ -182,7 +177,8 @@ const Bytes& BufferStore::Read(int index) {
 void BufferStore::CheckUnused() {
   const Place views_place(context_.place, "bufferViews"), buffers_place(context_.place, "buffers");
   for (std::size_t i = 0; i < views_.size(); ++i) {
-    if (!views_[i].is_used && views_[i].error) Place(views_place, i).Warn("nothing reads it", *views_[i].error);
+    if (views_[i].description) continue;
+    context_.TryUnused(Place(views_place, i), "nothing reads it", [&] { Describe(static_cast<int>(i)); });
   }
   for (std::size_t i = 0; i < buffers_.size(); ++i) {
     if (buffers_[i].bytes || buffers_[i].error) continue;
@@ -191,7 +187,7 @@ void BufferStore::CheckUnused() {
     if (!uri) continue;
     const Place uri_place(place, "uri");
     if (IsDataUri(*uri)) continue;
-    context_.Try(false, uri_place, "nothing reads it", [&] {
+    context_.TryUnused(uri_place, "nothing reads it", [&] {
       const std::filesystem::path path = context_.files.Find(*uri, uri_place);
       std::error_code ignored;
       if (!std::filesystem::is_regular_file(path, ignored)) {

@@ -18,10 +18,9 @@ struct BufferView {
 // Buffers are read when something asks for them: one that nothing needs may be broken, or not there.
 class BufferStore {
  public:
-  // Warns of views that reach past their buffer.
   BufferStore(Context& context, std::optional<Bytes> bin);
 
-  // Throws Error(InvalidInput) where the file's description is broken.
+  // Warns of a view that reaches past its buffer. Throws Error(InvalidInput) where the file's description is broken.
   const BufferView& Describe(int view);
 
   // The bytes of a buffer view, decompressed where it is compressed (once). Of a view that reaches past its buffer
@@ -49,10 +48,8 @@ class BufferStore {
     std::string shortage;
   };
   struct View {
-    BufferView description;
-    std::optional<Error> error;  // why there is no description
+    std::optional<BufferView> description;  // where something has asked for it
     std::optional<Bytes> bytes;
-    bool is_used = false;
   };
 
   Bytes Load(std::size_t buffer);

@@ -77,7 +77,7 @@ std::vector<bool> ReadCameras(Context& context, Scene& scene) {
     const Json& object = context.Object("cameras", i);
     const Place place(list_place, i);
     Camera camera;
-    usable.push_back(context.Try(false, place, "cannot be used", [&] { camera = ReadCamera(object, place); }));
+    usable.push_back(context.TryUnused(place, "cannot be used", [&] { camera = ReadCamera(object, place); }));
     camera.name = NameOf(object, place);
     scene.cameras.push_back(std::move(camera));
   }

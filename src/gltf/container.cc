@@ -33,7 +33,7 @@ bool BeginsAsJson(std::string_view text) {
 
 // Just behind the bracket that closes the JSON object at the start of `text`; nothing where none does.
 std::optional<std::size_t> EndOfJson(std::string_view text) {
-  int depth = 0;
+  std::int64_t depth = 0;
   bool in_string = false;
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];

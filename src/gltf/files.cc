@@ -18,8 +18,6 @@ fs::path PathOfUtf8(const std::string& name) { return fs::path(std::u8string(nam
 std::vector<std::string> NamesOf(const std::string& uri) {
   std::vector<std::string> names;
   const auto add = [&](std::string name) {
-    // A zero would end the name early for the operating system, and name another file than messages do.
-    if (name.find('\0') != std::string::npos) return;
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(std::move(name));
   };
   add(PercentDecode(uri));

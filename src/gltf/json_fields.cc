@@ -19,6 +19,41 @@ constexpr std::size_t kMaxInteger = std::size_t(1) << 53;  // what JSON's number
   Fail(Place(place, key), std::string("is not ") + expected);
 }
 
+// A kind of value, and what messages call it.
+struct Kind {
+  bool (*includes)(const Json& value);
+  const char* name;
+};
+constexpr Kind kObject = {[](const Json& value) { return value.is_object(); }, "an object"};
+constexpr Kind kArray = {[](const Json& value) { return value.is_array(); }, "an array"};
+constexpr Kind kNumber = {[](const Json& value) { return value.is_number(); }, "a number"};
+constexpr Kind kString = {[](const Json& value) { return value.is_string(); }, "a string"};
+constexpr Kind kBool = {[](const Json& value) { return value.is_boolean(); }, "true or false"};
+constexpr Kind kSize = {[](const Json& value) {
+                          return value.is_number_unsigned() && value.get<std::uint64_t>() < kMaxInteger;
+                        },
+                        "a sensible non-negative integer"};
+
+// A member of that kind; null when absent.
+const Json* Strict(const Kind& kind, const Json& object, const char* key, const Place& place) {
+  const Json* value = Find(object, key);
+  if (value && !kind.includes(*value)) FailType(key, kind.name, place);
+  return value;
+}
+
+// Without an exception, which takes long where there are many.
+const Json* Lenient(const Kind& kind, const Json& object, const char* key, const Place& place) {
+  const Json* value = Find(object, key);
+  if (!value || kind.includes(*value)) return value;
+  Place(place, key).Warn(std::string("ignored (is not ") + kind.name + ")");
+  return nullptr;
+}
+
+template <class T>
+std::optional<T> Get(const Json* value) {
+  return value ? std::optional(value->get<T>()) : std::nullopt;
+}
+
 // What `read` returns, or nothing where it throws.
 template <class Read>
 auto Leniently(const Read& read, const char* key, const Place& place) -> decltype(read()) {
@@ -42,45 +77,27 @@ void CheckObject(const Json& value, const Place& place) {
 }
 
 const Json* ObjectAt(const Json& object, const char* key, const Place& place) {
-  const Json* value = Find(object, key);
-  if (value && !value->is_object()) FailType(key, "an object", place);
-  return value;
+  return Strict(kObject, object, key, place);
 }
 
 const Json* ArrayAt(const Json& object, const char* key, const Place& place) {
-  const Json* value = Find(object, key);
-  if (value && !value->is_array()) FailType(key, "an array", place);
-  return value;
+  return Strict(kArray, object, key, place);
 }
 
 std::optional<double> NumberAt(const Json& object, const char* key, const Place& place) {
-  const Json* value = Find(object, key);
-  if (!value) return std::nullopt;
-  if (!value->is_number()) FailType(key, "a number", place);
-  return value->get<double>();
+  return Get<double>(Strict(kNumber, object, key, place));
 }
 
 std::optional<std::size_t> SizeAt(const Json& object, const char* key, const Place& place) {
-  const Json* value = Find(object, key);
-  if (!value) return std::nullopt;
-  if (!value->is_number_unsigned() || value->get<std::uint64_t>() >= kMaxInteger) {
-    FailType(key, "a sensible non-negative integer", place);
-  }
-  return value->get<std::size_t>();
+  return Get<std::size_t>(Strict(kSize, object, key, place));
 }
 
 std::optional<std::string> StringAt(const Json& object, const char* key, const Place& place) {
-  const Json* value = Find(object, key);
-  if (!value) return std::nullopt;
-  if (!value->is_string()) FailType(key, "a string", place);
-  return value->get<std::string>();
+  return Get<std::string>(Strict(kString, object, key, place));
 }
 
 std::optional<bool> BoolAt(const Json& object, const char* key, const Place& place) {
-  const Json* value = Find(object, key);
-  if (!value) return std::nullopt;
-  if (!value->is_boolean()) FailType(key, "true or false", place);
-  return value->get<bool>();
+  return Get<bool>(Strict(kBool, object, key, place));
 }
 
 std::size_t RequireSize(const Json& object, const char* key, const Place& place) {
@@ -163,27 +180,27 @@ std::optional<int> OneOfAt(const Json& object, const char* key, std::initializer
 }
 
 const Json* LenientObject(const Json& object, const char* key, const Place& place) {
-  return Leniently([&] { return ObjectAt(object, key, place); }, key, place);
+  return Lenient(kObject, object, key, place);
 }
 
 const Json* LenientArray(const Json& object, const char* key, const Place& place) {
-  return Leniently([&] { return ArrayAt(object, key, place); }, key, place);
+  return Lenient(kArray, object, key, place);
 }
 
 std::optional<double> LenientNumber(const Json& object, const char* key, const Place& place) {
-  return Leniently([&] { return NumberAt(object, key, place); }, key, place);
+  return Get<double>(Lenient(kNumber, object, key, place));
 }
 
 std::optional<std::size_t> LenientSize(const Json& object, const char* key, const Place& place) {
-  return Leniently([&] { return SizeAt(object, key, place); }, key, place);
+  return Get<std::size_t>(Lenient(kSize, object, key, place));
 }
 
 std::optional<std::string> LenientString(const Json& object, const char* key, const Place& place) {
-  return Leniently([&] { return StringAt(object, key, place); }, key, place);
+  return Get<std::string>(Lenient(kString, object, key, place));
 }
 
 std::optional<bool> LenientBool(const Json& object, const char* key, const Place& place) {
-  return Leniently([&] { return BoolAt(object, key, place); }, key, place);
+  return Get<bool>(Lenient(kBool, object, key, place));
 }
 
 int LenientIndex(const Json& object, const char* key, std::size_t count, const char* list, const Place& place) {

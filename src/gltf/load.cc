@@ -45,13 +45,15 @@ void ReadPrimitives(Context& context, BufferStore& buffers, AccessorReader& read
   for (std::size_t p = 0; p < primitives.size(); ++p) {
     const Place primitive_place(list_place, p);
     if (IsAbsent(primitives[p], primitive_place)) continue;
-    context.Try(use.shown, primitive_place, "ignored", [&] {
+    const auto read_one = [&] {
       CheckObject(primitives[p], primitive_place);
       auto primitive = ReadPrimitive(context, buffers, reader, primitives[p], use, primitive_place);
       if (!primitive) return;
       mesh.primitives.push_back(*std::move(primitive));
       read.push_back(p);
-    });
+    };
+    use.shown ? context.Try(true, primitive_place, "", read_one)
+              : context.TryUnused(primitive_place, "ignored", read_one);
   }
 }
 
@@ -65,9 +67,10 @@ void ReadMeshes(Context& context, BufferStore& buffers, AccessorReader& reader, 
     const Place place(list_place, m);
     Mesh mesh;
     mesh.name = NameOf(object, place);
-    context.Try(shown.meshes[m].shown, place, "ignored", [&] {
+    const auto read = [&] {
       ReadPrimitives(context, buffers, reader, object, shown.meshes[m], place, mesh, context.primitives_read[m]);
-    });
+    };
+    shown.meshes[m].shown ? context.Try(true, place, "", read) : context.TryUnused(place, "ignored", read);
     std::size_t most_targets = 0;
     for (const Primitive& primitive : mesh.primitives) most_targets = std::max(most_targets, primitive.targets.size());
     for (const Primitive& primitive : mesh.primitives) {

@@ -46,7 +46,9 @@ class TreeReader {
   // Indices of nodes, without those that are none (of which the last is kept as `problem`) and without repetitions.
   Indices ReadList(const Json& object, const char* key, const Place& place, std::vector<std::size_t>& marks,
                    std::size_t mark, std::optional<Error>& problem) {
+    constexpr std::size_t kMostFailures = 1000;  // of a list whose node or scene cannot be shown for them
     Indices list;
+    std::size_t failures = 0;
     try {
       const Json* array = ArrayAt(object, key, place);
       const Place list_place(place, key);
@@ -61,11 +63,12 @@ class TreeReader {
             list.push_back(node);
           }
         } catch (const Error& error) {
-          problem = error;
+          Keep(problem, error);
+          if (++failures == kMostFailures) break;
         }
       }
     } catch (const Error& error) {
-      problem = error;
+      Keep(problem, error);
     }
     return list;
   }
@@ -162,8 +165,14 @@ class TreeReader {
 
   void SetProblem(std::size_t node, const std::string& what, std::size_t about) {
     if (!problems_[node]) {
-      problems_[node] = Error(ErrorCode::InvalidInput, what, Place(nodes_place_, about).Full());
+      Keep(problems_[node], Error(ErrorCode::InvalidInput, what, Place(nodes_place_, about).Full()));
     }
+  }
+
+  void Keep(std::optional<Error>& problem, const Error& error) {
+    constexpr std::size_t kError = 512;  // with its texts
+    if (!problem) context_.Charge(1, kError, nodes_place_);
+    problem = error;
   }
 
   // A scene that lists a node and one of its ancestors has it below that. One that lists a node without any of its

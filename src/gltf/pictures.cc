@@ -40,7 +40,7 @@ class EncodedImage final : public ImageSource {
   void DecodeRows(const RowReceiver& receive) const override { DecodeTextureRows(bytes_.Span(), name_, receive); }
   std::string Name() const override { return name_; }
   std::optional<ImageHeader> Header() const override { return ProbeImage(bytes_.Span()); }
-  std::size_t BytesHeld() const override { return bytes_.size; }
+  std::size_t BytesHeld() const override { return bytes_.is_mapped ? 0 : bytes_.size; }
 
  private:
   Bytes bytes_;

@@ -62,16 +62,17 @@ Range NarrowRange(std::vector<std::uint32_t>& indices, std::size_t vertex_count)
   return {low, span};
 }
 
-// Drops what is left over from a list of pairs or triples.
-void TrimList(Primitive& primitive, const Place& place) {
+// Drops what is left over from a list of pairs or triples. False: nothing remains.
+bool TrimList(Primitive& primitive, const Place& place) {
   const std::size_t each = primitive.topology == Topology::Lines       ? 2
                            : primitive.topology == Topology::Triangles ? 3
                                                                        : 1;
   const std::size_t count = primitive.indices.empty() ? primitive.positions.size() : primitive.indices.size();
-  if (count % each == 0) return;
+  if (count % each == 0) return true;
   place.Warn("ignored: the last " + std::to_string(count % each) + " of " + std::to_string(count) +
              " vertices, which make no " + (each == 2 ? "line" : "triangle"));
   if (!primitive.indices.empty()) primitive.indices.resize(count - count % each);
+  return count >= each;
 }
 
 void NormaliseNormals(std::vector<glm::vec3>& normals, const Place& place) {
@@ -354,7 +355,7 @@ std::optional<Primitive> PrimitiveReader::Read() {
   AttributeSource source(context_, reader_, attributes_, draco ? &*draco : nullptr, vertex_count, range,
                          attributes_place);
   ReadAttributes(source, attributes_place);
-  TrimList(out_, place_);
+  if (!TrimList(out_, place_)) return std::nullopt;
   ReadTargets(vertex_count, range);
   return std::optional(std::move(out_));
 }

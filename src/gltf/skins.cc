@@ -39,9 +39,8 @@ void ReadSkins(Context& context, AccessorReader& reader, const Shown& shown, Sce
     const Json& object = context.Object("skins", i);
     const Place place(list_place, i);
     Skin skin;
-    if (!context.Try(shown.skins[i], place, "ignored", [&] { ReadSkin(context, reader, object, skin, place); })) {
-      skin = {};
-    }
+    const auto read = [&] { ReadSkin(context, reader, object, skin, place); };
+    if (!(shown.skins[i] ? context.Try(true, place, "", read) : context.TryUnused(place, "ignored", read))) skin = {};
     skin.name = NameOf(object, place);
     LenientIndex(object, "skeleton", scene.nodes.size(), "nodes", place);  // says something about bounds only
     scene.skins.push_back(std::move(skin));

@@ -1,5 +1,6 @@
 // Writing JPEG. libjpeg's own handler of errors ends the process and its own target, a stdio file, ends in that handler
 // when the disk is full: both are replaced.
+#include <algorithm>
 #include <csetjmp>
 #include <cstddef>
 #include <cstdio>
@@ -9,6 +10,8 @@
 
 // jpeglib.h needs size_t and FILE to be known.
 #include <jpeglib.h>
+
+#include <jerror.h>
 
 #include "facet/error.h"
 #include "image/jpeg.h"
@@ -30,12 +33,43 @@ struct ErrorState {
 
 void OnOutput(j_common_ptr) {}
 
+// Where the file goes. libjpeg's own target in memory loses hold of its memory where there is too little.
+struct Target {
+  jpeg_destination_mgr manager;  // first: libjpeg hands back a pointer to it
+  JOCTET* bytes;                 // by std::malloc
+  std::size_t room;
+};
+
+void Begin(j_compress_ptr) {}
+
+boolean MakeRoom(j_compress_ptr encoder) {
+  auto* target = reinterpret_cast<Target*>(encoder->dest);
+  constexpr std::size_t kFirst = std::size_t{1} << 16;
+  const std::size_t used = target->room, room = std::max(kFirst, 2 * used);
+  void* const bytes = std::realloc(target->bytes, room);
+  if (bytes == nullptr) {
+    encoder->err->msg_code = JERR_OUT_OF_MEMORY;
+    encoder->err->msg_parm.i[0] = 0;
+    OnError(reinterpret_cast<j_common_ptr>(encoder));
+  }
+  target->bytes = static_cast<JOCTET*>(bytes);
+  target->room = room;
+  target->manager.next_output_byte = target->bytes + used;
+  target->manager.free_in_buffer = room - used;
+  return TRUE;
+}
+
+void End(j_compress_ptr) {}
+
 // Holds plain data only: an error leaves it by longjmp.
-bool Encode(jpeg_compress_struct* encoder, ErrorState* errors, const Image* image, unsigned char** bytes,
-            unsigned long* size) {
+bool Encode(jpeg_compress_struct* encoder, ErrorState* errors, const Image* image, Target* target) {
   if (setjmp(errors->jump) != 0) return false;
   jpeg_create_compress(encoder);
-  jpeg_mem_dest(encoder, bytes, size);
+  target->manager.init_destination = Begin;
+  target->manager.empty_output_buffer = MakeRoom;
+  target->manager.term_destination = End;
+  encoder->dest = &target->manager;
+  MakeRoom(encoder);
   encoder->image_width = static_cast<JDIMENSION>(image->width);
   encoder->image_height = static_cast<JDIMENSION>(image->height);
   encoder->input_components = image->channels;
@@ -65,14 +99,13 @@ std::vector<std::byte> EncodeJpeg(const Image& image) {
   encoder.err = jpeg_std_error(&errors.manager);
   errors.manager.error_exit = OnError;
   errors.manager.output_message = OnOutput;
-  unsigned char* bytes = nullptr;
-  unsigned long size = 0;
-  const bool done = Encode(&encoder, &errors, &image, &bytes, &size);
+  Target target{};
+  const bool done = Encode(&encoder, &errors, &image, &target);
   jpeg_destroy_compress(&encoder);
-  const std::unique_ptr<unsigned char, void (*)(void*)> owner(bytes, std::free);
+  const std::unique_ptr<JOCTET, void (*)(void*)> owner(target.bytes, std::free);
   if (!done) throw Error(ErrorCode::OutOfMemory, std::string("libjpeg: ") + errors.text);
-  const auto* begin = reinterpret_cast<const std::byte*>(bytes);
-  return {begin, begin + size};
+  const auto* begin = reinterpret_cast<const std::byte*>(target.bytes);
+  return {begin, begin + (target.room - target.manager.free_in_buffer)};
 }
 
 }  // namespace facet

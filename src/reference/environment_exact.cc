@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/memory_budget.h"
 #include "base/parallel.h"
 #include "image/convert.h"
 #include "light/environment_source.h"
@@ -41,6 +42,8 @@ ExactEnvironment::ExactEnvironment(const EnvironmentSettings& settings)
   const bool is_studio = settings.kind == EnvironmentSettings::Kind::Studio;
   const auto picture = is_studio ? nullptr : PictureOf(settings);
   if (!is_studio) CheckImage(*picture, "environment");
+  const std::size_t pixels = is_studio ? std::size_t(kStudioWidth) * kStudioHeight : picture->PixelCount();
+  held_ = MemoryLease(pixels, 2 * 3 * sizeof(float) + sizeof(double), "the environment");  // and a linear copy
   const Image linear = ToLinearRgb32F(is_studio ? StudioPicture(kStudioWidth, kStudioHeight) : *picture);
   width_ = linear.width;
   height_ = linear.height;

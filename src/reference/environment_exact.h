@@ -4,6 +4,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "base/memory_budget.h"
 #include "facet/render.h"
 
 namespace facet {
@@ -42,6 +43,7 @@ class ExactEnvironment {
   glm::dvec3 ToWorld(const glm::dvec3& d) const;
 
   int width_ = 0, height_ = 0;
+  MemoryLease held_;  // of all vectors here
   std::vector<float> rgb_;
   double cosine_ = 1.0, sine_ = 0.0;  // of the rotation
   double intensity_ = 1.0;

@@ -17,7 +17,10 @@ bool IsFiniteVector(const glm::dvec3& v) { return std::isfinite(v.x) && std::isf
 
 ExactGeometry::ExactGeometry(const ExactView& view, const PosedScene& posed, const std::vector<bool>& double_sided)
     : view_(view), columns_((view.width + kTile - 1) / kTile) {
-  tiles_.resize(std::size_t(columns_) * std::size_t((view.height + kTile - 1) / kTile));
+  const std::size_t tiles = std::size_t(columns_) * std::size_t((view.height + kTile - 1) / kTile);
+  Charge(tiles * sizeof(tiles_[0]) + posed.drawables.size() * sizeof(Placed));
+  tiles_.resize(tiles);
+  placed_.reserve(posed.drawables.size());
   for (std::size_t d = 0; d < posed.drawables.size(); ++d) {
     const Drawable& drawable = posed.drawables[d];
     const glm::dmat3 linear(drawable.world_from_mesh);
@@ -56,6 +59,15 @@ glm::dvec3 ExactGeometry::EyeRelative(const Placed& placed, std::uint32_t vertex
   return placed.eye_relative_from_mesh * glm::dvec3(placed.geometry->positions[vertex]) + placed.origin_eye;
 }
 
+void ExactGeometry::Charge(std::size_t bytes) {
+  constexpr std::size_t kAtOnce = 1 << 20;
+  needed_ += 2 * bytes;  // vectors that grow have room for twice of what is in them
+  if (needed_ <= charged_) return;
+  const std::size_t more = std::max(kAtOnce, needed_ - charged_);
+  held_.emplace_back(more, 1, "the reference's lists of triangles");
+  charged_ += more;
+}
+
 // `low` and `high`: bounds in pixels.
 void ExactGeometry::Add(Shape& shape, const glm::dvec2& low, const glm::dvec2& high) {
   constexpr double kMargin = 0.01;  // more than rounding
@@ -67,11 +79,15 @@ void ExactGeometry::Add(Shape& shape, const glm::dvec2& low, const glm::dvec2& h
   shape.right = static_cast<float>(std::min(high.x + kMargin, view_.width + 1.0));
   shape.bottom = static_cast<float>(std::min(high.y + kMargin, view_.height + 1.0));
   const auto number = std::uint32_t(primitives_.size());
-  primitives_.push_back(shape);
   const int last_column = columns_ - 1, last_row = int(tiles_.size()) / columns_ - 1;
   const auto tile = [](float pixels, int last) { return std::clamp(int(pixels) / kTile, 0, last); };
-  for (int row = tile(shape.top, last_row); row <= tile(shape.bottom, last_row); ++row) {
-    for (int column = tile(shape.left, last_column); column <= tile(shape.right, last_column); ++column) {
+  const int first_row = tile(shape.top, last_row), end_row = tile(shape.bottom, last_row) + 1;
+  const int first_column = tile(shape.left, last_column), end_column = tile(shape.right, last_column) + 1;
+  const std::size_t cells = std::size_t(end_row - first_row) * std::size_t(end_column - first_column);
+  Charge(sizeof(Shape) + sizeof(WideShape) + cells * sizeof(number));
+  primitives_.push_back(shape);
+  for (int row = first_row; row < end_row; ++row) {
+    for (int column = first_column; column < end_column; ++column) {
       tiles_[std::size_t(row * columns_ + column)].push_back(number);
     }
   }

@@ -5,6 +5,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "base/memory_budget.h"
 #include "reference/surface_exact.h"
 #include "reference/view_exact.h"
 #include "scene/pose.h"
@@ -61,6 +62,7 @@ class ExactGeometry {
   void AddLine(Shape& shape);
   void AddPoint(Shape& shape);
   void Add(Shape& shape, const glm::dvec2& low, const glm::dvec2& high);
+  void Charge(std::size_t bytes);
   bool HitTriangle(const Shape& shape, const glm::dvec3& screen, Hit& hit) const;
   bool HitWide(const Shape& shape, const glm::dvec2& place, Hit& hit) const;
 
@@ -70,6 +72,9 @@ class ExactGeometry {
   std::vector<WideShape> wide_;
   int columns_ = 0;
   std::vector<std::vector<std::uint32_t>> tiles_;
+  // What the lists need and what has been charged for them, in bytes.
+  std::size_t needed_ = 0, charged_ = 0;
+  std::vector<MemoryLease> held_;
 };
 
 }  // namespace facet

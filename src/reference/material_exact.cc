@@ -2,6 +2,7 @@
 
 #include <map>
 
+#include "base/memory_budget.h"
 #include "facet/error.h"
 
 namespace facet {
@@ -63,7 +64,14 @@ std::vector<ExactMaterial> MakeExactMaterials(const Scene& scene, const FramePla
     if (!is_new) return place->second;
     const ImageSource& source = *scene.images[std::size_t(index)].source;
     try {
-      place->second = std::make_shared<const Image>(source.Decode());
+      struct Held {
+        Image image;
+        MemoryLease lease;
+      };
+      const auto held = std::make_shared<Held>();
+      held->image = source.Decode();
+      held->lease = MemoryLease(held->image.bytes.size(), 1, "textures", source.Name());
+      place->second = std::shared_ptr<const Image>(held, &held->image);
     } catch (const Error& error) {
       if (error.code() != ErrorCode::InvalidInput && error.code() != ErrorCode::NotFound) throw;
       notes.push_back(source.Name() + ": " + error.message() + " (drawn without this texture)");

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "base/memory_budget.h"
 #include "base/parallel.h"
 #include "facet/error.h"
 #include "frame/constants.h"
@@ -34,7 +35,7 @@ void CheckSettings(const RenderSettings& settings, const ReferenceSettings& refe
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   CheckRange("a width", settings.width, 1, kMaxPictureSize);
   CheckRange("a height", settings.height, 1, kMaxPictureSize);
-  CheckRange("a number of threads", settings.threads, 0, 65536);
+  CheckThreads(settings.threads);
   CheckRange("an environment rotation", settings.environment.rotation, -1e9, 1e9);
   CheckRange("an environment intensity", settings.environment.intensity, 0, 1e30);
   CheckRange("a number of samples", reference.samples, 1, 65536);
@@ -213,6 +214,8 @@ class ReferenceRun::Work {
       : settings_(WithoutWhatIsUnused(settings)),
         reference_(reference),
         start_(reference.clock()),
+        film_bytes_(std::uint64_t(settings.width) * std::uint64_t(settings.height), 3 * sizeof(glm::dvec4),
+                    "the reference"),
         prepared_(scene, settings_, reference_, notes_),
         order_(SpreadBlocks(settings.width, settings.height, reference.seed)) {
     film_.width = settings_.width;
@@ -333,6 +336,7 @@ class ReferenceRun::Work {
   const RenderSettings settings_;
   const ReferenceSettings reference_;
   const double start_;
+  const MemoryLease film_bytes_;  // of the film and of squares_
   std::vector<std::string> notes_;
   const ReferenceScene prepared_;
   const std::vector<PixelBlock> order_;

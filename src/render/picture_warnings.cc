@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/memory_budget.h"
+#include "facet/error.h"
 #include "facet/shader.h"
 #include "scene/hierarchy.h"
 
@@ -58,7 +60,14 @@ std::string WhyNothingIsVisible(const Scene& scene, const PosedScene& posed, con
   FramePlan two_sided = plan;
   for (PlannedMaterial& material : two_sided.materials) material.frame.features |= kDoubleSided;
   RenderStats unused;
-  RunGeometry(view, posed, two_sided, grid, settings.samples, geometry, unused);
+  try {
+    MemoryBudget again(settings.memory_limit);  // it takes the place of what the frame was drawn from
+    const MemoryBudget::Scope scope(again);
+    RunGeometry(view, posed, two_sided, grid, settings.samples, geometry, unused);
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::OutOfMemory) throw;
+    return nothing + "within the memory limit it cannot be said why";
+  }
   if (unused.triangles_binned > stats.triangles_binned && ReachesTiles(geometry)) {
     return nothing +
            "what is in the view turns its back to the camera; look from the other side, or make its "

@@ -5,6 +5,8 @@
 #include <bit>
 #include <exception>
 #include <map>
+#include <set>
+#include <string>
 #include <utility>
 
 #include "base/bytes_text.h"
@@ -91,6 +93,7 @@ void DecodeTextures(const Scene& scene, const std::vector<bool>& material_visibl
   CheckSizes(scene, needed, texels, plan, textures, budget);
   // An image that is read in two roles is decoded once.
   std::vector<int> images;
+  std::vector<std::vector<std::size_t>> textures_of(scene.images.size());  // to be made, by image
   for (std::size_t t = 0; t < needed.size(); ++t) {
     FrameTextures::Entry& entry = textures.entries[t];
     if (!needed[t] || entry.data != nullptr || !entry.problem.empty()) continue;
@@ -99,7 +102,9 @@ void DecodeTextures(const Scene& scene, const std::vector<bool>& material_visibl
       entry.data = std::make_unique<const TextureData>(BuildTexture(WhitePixel(), plan.textures[t].role, false, texels));
       continue;
     }
-    if (std::find(images.begin(), images.end(), image) == images.end()) images.push_back(image);
+    std::vector<std::size_t>& known = textures_of[std::size_t(image)];
+    if (known.empty()) images.push_back(image);
+    known.push_back(t);
   }
   std::vector<std::exception_ptr> failures(images.size());  // the first in the file's order is passed on
   // The largest first: what comes last should not leave the other threads idle for long.
@@ -114,10 +119,7 @@ void DecodeTextures(const Scene& scene, const std::vector<bool>& material_visibl
     const std::size_t i = order[next++].second;
     if (i == images.size()) return beside.run();
     const auto for_each_role = [&](auto&& body) {
-      for (std::size_t t = 0; t < needed.size(); ++t) {
-        if (!needed[t] || plan.textures[t].image != images[i]) continue;  // others are being made
-        if (textures.entries[t].data == nullptr) body(plan.textures[t], textures.entries[t]);
-      }
+      for (const std::size_t t : textures_of[std::size_t(images[i])]) body(plan.textures[t], textures.entries[t]);
     };
     const ImageSource& source = *scene.images[std::size_t(images[i])].source;
     try {
@@ -148,7 +150,8 @@ void DecodeTextures(const Scene& scene, const std::vector<bool>& material_visibl
   for (const std::exception_ptr& failure : failures) {
     if (failure != nullptr) std::rethrow_exception(failure);
   }
-  std::vector<int> warned;  // once an image
+  std::vector<bool> warned(scene.images.size(), false);
+  std::set<std::string> said;  // images of the file may name one picture
   stats.images_decoded = images.size();
   for (std::size_t t = 0; t < needed.size(); ++t) {
     const FrameTextures::Entry& entry = textures.entries[t];
@@ -161,14 +164,11 @@ void DecodeTextures(const Scene& scene, const std::vector<bool>& material_visibl
     }
     if (!needed[t] || (entry.problem.empty() && entry.damage.empty())) continue;
     const int image = plan.textures[t].image;
-    if (std::find(warned.begin(), warned.end(), image) != warned.end()) continue;
-    warned.push_back(image);
-    // Images of the file may name one picture.
+    if (warned[std::size_t(image)]) continue;
+    warned[std::size_t(image)] = true;
     const std::string warning = entry.problem.empty() ? entry.damage : entry.problem + " (drawn without this texture)";
-    const bool is_said = std::find(stats.warnings.begin(), stats.warnings.end(), warning) != stats.warnings.end();
-    if (!is_said) stats.warnings.push_back(warning);
-    if (entry.problem.empty()) continue;
-    if (std::find(images.begin(), images.end(), image) != images.end()) --stats.images_decoded;
+    if (said.insert(warning).second) stats.warnings.push_back(warning);
+    if (!entry.problem.empty() && !textures_of[std::size_t(image)].empty()) --stats.images_decoded;
   }
 
   constexpr MaterialFeature kFeatures[5] = {kBaseColorTexture, kMetallicRoughnessTexture, kNormalTexture,

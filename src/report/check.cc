@@ -98,14 +98,17 @@ std::string Blame(const ExpectedInputs& expected, const ExpectedInputs& actual) 
 class Check {
  public:
   // `pictures`: what all pictures that are kept may take.
-  Check(const Manifest& manifest, std::size_t index, const CheckOptions& options, int threads, MemoryBudget& pictures)
+  // `inputs`: what all entries start from.
+  Check(const Manifest& manifest, std::size_t index, const CheckOptions& options, int threads, MemoryBudget& pictures,
+        const FileSet& inputs)
       : manifest_(manifest),
         entry_(manifest.entries[index]),
         expect_(entry_.expect),
         index_(index),
         options_(options),
         threads_(threads),
-        pictures_(pictures) {}
+        pictures_(pictures),
+        inputs_(inputs) {}
 
   // The result, and what shall stand in the manifest from now on.
   std::pair<CheckedEntry, std::optional<NewExpectation>> Run() {
@@ -115,6 +118,10 @@ class Check {
     result_.name = entry_.name;
     result_.place = PlaceIn(manifest_, entry_.pointer);
     result_.expected_film = expect_.film;
+    const std::filesystem::path folder = manifest_.path.parent_path();
+    result_.files.push_back(folder / entry_.scene);
+    if (entry_.request.environment) result_.files.push_back(folder / *entry_.request.environment);
+    if (expect_.picture) result_.files.push_back(folder / *expect_.picture);
     try {
       if (entry_.problem) throw Error(*entry_.problem);
       Decide();
@@ -150,6 +157,8 @@ class Check {
 
   void Decide() {
     const RenderInputs inputs = Load();
+    const std::vector<std::filesystem::path>& of_scene = inputs.loaded.report.files;
+    result_.files.insert(result_.files.end(), of_scene.begin(), of_scene.end());
     RenderSettings settings = inputs.settings;
     settings.threads = threads_;
     RenderStats stats;
@@ -268,7 +277,7 @@ class Check {
     }
     if (!update) return;
     if (expect_.picture && !(result_.difference && result_.difference->equal)) {
-      WritePicture(actual, InputsOf(inputs));
+      WritePicture(actual, inputs.loaded.report.files);
       done.push_back("picture written");
     }
     const bool was_there = expect_.film || result_.difference;
@@ -276,9 +285,10 @@ class Check {
     result_.message = Joined(done) + (was_there && !same_film ? "; " + result_.message : "");
   }
 
-  void WritePicture(const Image& actual, const std::vector<std::filesystem::path>& inputs) const {
+  void WritePicture(const Image& actual, const std::vector<std::filesystem::path>& scene_files) const {
     const std::filesystem::path path = PicturePath();
-    RefuseOverwriting({path}, inputs);
+    RefuseOverwriting({path}, inputs_);
+    RefuseOverwriting({path}, scene_files);
     std::error_code ignored;  // writing says it better
     std::filesystem::create_directories(path.parent_path(), ignored);
     const Provenance provenance{Version(), entry_.scene.filename().string(), SpelledOut(entry_.request), *result_.film,
@@ -298,18 +308,6 @@ class Check {
     }
   }
 
-  // What an update must not write over: the entry's files, and the scenes of all.
-  std::vector<std::filesystem::path> InputsOf(const RenderInputs& inputs) const {
-    std::vector<std::filesystem::path> files = inputs.loaded.report.files;
-    const std::filesystem::path folder = manifest_.path.parent_path();
-    for (const ManifestEntry& other : manifest_.entries) {
-      files.push_back(folder / other.scene);
-      if (other.request.environment) files.push_back(folder / *other.request.environment);
-    }
-    files.push_back(manifest_.path);
-    return files;
-  }
-
   const Manifest& manifest_;
   const ManifestEntry& entry_;
   const Expectation& expect_;
@@ -317,6 +315,7 @@ class Check {
   const CheckOptions& options_;
   const int threads_;
   MemoryBudget& pictures_;
+  const FileSet& inputs_;
   bool out_of_memory_ = false;
   std::string other_size_;  // what is wrong where the golden picture has another size than the rendering
   CheckedEntry result_;
@@ -337,6 +336,18 @@ std::vector<std::size_t> Selected(const Manifest& manifest, const std::string& o
     throw Error(ErrorCode::InvalidUsage, "no entry of " + manifest.name + " is called like " + Quoted(only), "--only");
   }
   return selected;
+}
+
+// What an update must not write over, whichever entry it is for.
+FileSet InputsOf(const Manifest& manifest) {
+  FileSet files;
+  files.Add(manifest.path);
+  const std::filesystem::path folder = manifest.path.parent_path();
+  for (const ManifestEntry& entry : manifest.entries) {
+    files.Add(folder / entry.scene);
+    if (entry.request.environment) files.Add(folder / *entry.request.environment);
+  }
+  return files;
 }
 
 }  // namespace
@@ -375,9 +386,10 @@ CheckReport CheckManifest(const std::filesystem::path& path, const CheckOptions&
   const int beside = options.threads == 0 ? 0 : std::max(1, std::min(options.threads, most));
   const int each = options.threads == 0 ? 0 : options.threads / beside;
   MemoryBudget pictures(options.load.memory_limit);
+  const FileSet inputs = InputsOf(manifest);
   std::vector<std::uint8_t> refused(selected.size());
   const auto run = [&](std::size_t i, const CheckOptions& limited) {
-    Check check(manifest, selected[i], limited, each, pictures);
+    Check check(manifest, selected[i], limited, each, pictures, inputs);
     std::tie(report.entries[i], updates[i]) = check.Run();
     refused[i] = check.out_of_memory();
   };

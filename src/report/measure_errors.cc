@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/memory_budget.h"
 #include "base/parallel.h"
 #include "facet/compare.h"
 #include "facet/error.h"
@@ -39,6 +40,9 @@ constexpr double kDoubleToLanes = 5.0;
 // not quite the least there are: CesiumMan's picture has two thirds of it without mip levels. And times vary.
 constexpr double kFar = 1.6;
 
+// Of a pixel at most: three films, one of them developed and its light, the reference's light, FLIP's errors.
+constexpr std::size_t kComparedBytes = 6 * sizeof(glm::vec4) + 2 * sizeof(float);
+
 class Sweep {
  public:
   Sweep(const Clock& clock, double start, const LoadedScene& loaded, const RenderRequest& request,
@@ -48,7 +52,8 @@ class Sweep {
         resolved_(std::move(resolved)),
         report_(report),
         clock_(clock),
-        start_(start) {
+        start_(start),
+        compared_(std::uint64_t(resolved_.width) * std::uint64_t(resolved_.height), kComparedBytes, "films to compare") {
     if (resolved_.environment.kind == EnvironmentSettings::Kind::Studio) {
       studio_ = std::make_shared<const Image>(StudioPicture(kStudioWidth, kStudioHeight));
       largest_environment_ = kStudioMaxSize;
@@ -370,6 +375,7 @@ class Sweep {
   const ReportSettings& report_;
   const Clock& clock_;
   const double start_;
+  const MemoryLease compared_;
   std::unique_ptr<ReferenceRun> reference_;
   double reference_began_ = 0.0;
   const ReferenceFilm* reference_film_ = nullptr;
@@ -397,11 +403,14 @@ ErrorReport MeasureErrorsBy(const Clock& clock, const std::filesystem::path& sce
   for (const auto& [option, value] : settings) SetOption(request, option, option, value);
   request.settings.threads = report.threads;
   ErrorReport out;
+  MemoryBudget budget(load.memory_limit);  // of what is neither loading nor rendering
+  const MemoryBudget::Scope scope(budget);
   RunWithThreads(report.threads, [&] {
     const RenderInputs inputs = LoadInputs(scene, request, load);
     out = Sweep(clock, start, inputs.loaded, request, inputs.settings, report).Run();
     const std::vector<std::string>& of_loading = inputs.loaded.report.warnings;
     out.warnings.insert(out.warnings.begin(), of_loading.begin(), of_loading.end());
+    out.files = inputs.loaded.report.files;
   });
   out.scene = scene.filename().string();
   return out;

@@ -64,8 +64,7 @@ TEST_F(FacetFiles, NoInputIsWrittenOver) {
   fs::create_symlink("car.png", folder_ / "link.png");
   fs::create_hard_link(texture, folder_ / "hard.png");
   const std::string before = ReadText(texture);
-  for (const char* name : {"car.png", "link.png", "hard.png", "../" }) {
-    if (std::string(name) == "../") continue;
+  for (const char* name : {"car.png", "link.png", "hard.png"}) {
     ExpectRefused(Draw(car, folder_ / name), 2, "is also an input");
   }
   ExpectRefused(Draw(car, (fs::path(texture).parent_path() / "." / "car.png").string()), 2, "is also an input");
@@ -81,6 +80,17 @@ TEST_F(FacetFiles, NoInputIsWrittenOver) {
   ExpectRefused(RunFacet({"check", folder_ / "goldens.json", "--html", folder_ / "goldens.json"}), 2, "is also an input");
   EXPECT_EQ(ReadText(scene_), TinyScene());
   EXPECT_EQ(Draw(car, folder_ / "other.png").exit_code, 0);
+}
+
+TEST_F(FacetFiles, AReportIsWrittenOverNoFileOfTheScene) {
+  std::string text = TexturedScene("texture.json");
+  WriteText(scene_, text);
+  WritePixel(folder_ / "texture.png", 100);
+  fs::rename(folder_ / "texture.png", folder_ / "texture.json");
+  const std::string before = ReadText(folder_ / "texture.json");
+  ExpectRefused(RunFacet({"report", scene_, "-o", folder_ / "texture.json", "--size", "8x8", "--budget", "1s"}), 2,
+                "is also an input");
+  EXPECT_EQ(ReadText(folder_ / "texture.json"), before);
 }
 
 TEST_F(FacetFiles, AnUpdateWritesOverNoInputAndNothingOutsideOfItsFolder) {

@@ -6,6 +6,7 @@
 
 #include "base/input_file.h"
 #include "cli/program.h"
+#include "cli/tiny_scene.h"
 #include "image/codec.h"
 
 namespace facet::test {
@@ -108,6 +109,29 @@ TEST_F(FacetReport, RenderSaysWhatIsOutOfReach) {
   const Outcome fast = Draw({"--max-time", "0.1ms", "--budget", "2s"});
   EXPECT_EQ(fast.exit_code, 0) << fast.err;
   EXPECT_NE(fast.err.find("; not even the cheapest settings come near it\n"), std::string::npos) << fast.err;
+}
+
+TEST_F(FacetReport, StrictMakesWarningsFailures) {
+  const std::string scene = folder_ / "scene.gltf";
+  WriteText(scene, TinyScene("\"extensionsUsed\": [\"ABC_unknown\"],"));
+  const std::vector<std::string> arguments = {"report", scene, "-o", stored_, "-q", "--size", "8x8", "--budget", "1s"};
+  std::vector<std::string> strict = arguments;
+  strict.push_back("--strict");
+  const Outcome refused = RunFacet(strict);
+  EXPECT_EQ(refused.exit_code, 4) << refused.err;
+  EXPECT_NE(refused.err.find("there is a warning"), std::string::npos) << refused.err;
+  EXPECT_EQ(folder_.Files(), (std::vector<std::string>{"scene.gltf"}));
+  EXPECT_EQ(RunFacet(arguments).exit_code, 0);
+}
+
+// The reference's film is larger than the picture's: 96 bytes a pixel.
+TEST_F(FacetReport, TheMemoryLimitHoldsForTheReference) {
+  const Outcome run = RunFacet({"report", kScene, "-o", stored_, "-q", "--size", "2048x2048", "--budget", "1s",
+                                "--memory-limit", "512MiB"});
+  EXPECT_EQ(run.exit_code, 7) << run.err;
+  EXPECT_TRUE(IsOneErrorLine(run.err)) << run.err;
+  EXPECT_NE(run.err.find("384.0 MiB for the reference"), std::string::npos) << run.err;
+  Measure({"--memory-limit", "64MiB"});
 }
 
 TEST_F(FacetReport, RefusesReportsOfOtherPictures) {

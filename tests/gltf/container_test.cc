@@ -83,7 +83,7 @@ Parts PartsOf(std::size_t padding) {
   FileMaker file;
   file.Attribute("POSITION", file.Triangle());
   std::string json = file.Json();
-  while (json.size() % 4 != 0) json.insert(json.size() - 1, " ");
+  json.insert(json.end() - 1, (4 - json.size() % 4) % 4, ' ');
   return {json + std::string(padding, ' '), file.Bin()};
 }
 

@@ -79,23 +79,23 @@ TEST(Uri, OnlyRelativeReferencesAreFollowed) {
 
 TEST(Uri, LinksLeadNoFurtherThanNames) {
   const TempFolder folder;
-  std::filesystem::create_directory(folder.path() / "inner");
-  std::ofstream(folder.path() / "secret.bin") << "secret";
-  std::filesystem::create_symlink("../secret.bin", folder.path() / "inner" / "link.bin");
-  const std::filesystem::path scene = folder.path() / "inner" / "a.gltf";
+  std::filesystem::create_directory(folder.Path() / "inner");
+  std::ofstream(folder.Path() / "secret.bin") << "secret";
+  std::filesystem::create_symlink("../secret.bin", folder.Path() / "inner" / "link.bin");
+  const std::filesystem::path scene = folder.Path() / "inner" / "a.gltf";
   LoadOptions options;
   LoadReport report;
   gltf::FileStore files(scene, options, report);
   const gltf::Place place("a.gltf");
   EXPECT_THROW(files.Find("link.bin", place), Error);
-  options.root = folder.path();
+  options.root = folder.Path();
   EXPECT_EQ(files.Read(files.Find("link.bin", place)).Text(), "secret");
 }
 
 TEST(Uri, OneFileIsReadOnceByWhateverNames) {
   const TempFolder folder;
-  std::ofstream(folder.path() / "a.bin") << std::string(1000, 'x');
-  const std::filesystem::path scene = folder.path() / "a.gltf";
+  std::ofstream(folder.Path() / "a.bin") << std::string(1000, 'x');
+  const std::filesystem::path scene = folder.Path() / "a.gltf";
   LoadOptions options;
   LoadReport report;
   gltf::FileStore files(scene, options, report);

@@ -72,7 +72,7 @@ std::string Number(double number) {
 std::string List(const std::vector<double>& numbers) {
   std::vector<std::string> parts;
   for (const double number : numbers) parts.push_back(Number(number));
-  return "[" + Joined(parts) + "]";
+  return std::string("[").append(Joined(parts)).append("]");
 }
 
 Texels MakeTexels(int width, int height, const std::function<std::vector<int>(int, int)>& rgba) {
