@@ -13,7 +13,7 @@ fi
 
 tools=(cmake ninja-build g++-aarch64-linux-gnu qemu-user)
 libraries=(libc6-dev libstdc++-12-dev libglm-dev libhwy-dev libtbb-dev nlohmann-json3-dev libdraco-dev
-  libmeshoptimizer-dev libpng-dev libdeflate-dev libjpeg-dev libwebp-dev libcli11-dev libgtest-dev)
+  libmeshoptimizer-dev libpng-dev libdeflate-dev libjpeg-dev libwebp-dev libcli11-dev libgtest-dev libtinygltf-dev)
 sysroot=$PWD/build/arm64-sysroot
 stamp=$sysroot/packages
 

@@ -11,7 +11,7 @@ packages=(cmake ninja-build g++ pkg-config
   nlohmann-json3-dev libdraco-dev libmeshoptimizer-dev
   libpng-dev libdeflate-dev libjpeg-dev libwebp-dev libopenimageio-dev libimath-dev # pictures
   libcli11-dev)
-extras=(clang libclang-rt-dev libgtest-dev libbenchmark-dev python3 python3-numpy python3-pil
+extras=(clang libclang-rt-dev libgtest-dev libbenchmark-dev libtinygltf-dev python3 python3-numpy python3-pil
   qemu-user) # the tests' processors of other makers
 
 case "${1:-}" in

@@ -225,7 +225,7 @@ Manifest ReadManifest(const std::filesystem::path& path) {
   manifest.name = Printable(path.string());
   manifest.path = path;
   manifest.text = ReadFile(path).Text();
-  const MemoryLease lease(JsonMemory(manifest.text), 1, "JSON", manifest.name);
+  const MemoryLease lease(JsonMemory(manifest.text), 2, "JSON", manifest.name);
   const Json json = Parse(manifest.text, manifest.name);
   const Value root{json, Json::json_pointer(), manifest.name};
   root.Expect(json.is_object(), "manifest: a JSON object");
@@ -270,7 +270,7 @@ Manifest ReadManifest(const std::filesystem::path& path) {
 }
 
 std::string Rewritten(const Manifest& manifest, const std::vector<NewExpectation>& expectations) {
-  const MemoryLease lease(JsonMemory(manifest.text), 1, "JSON", manifest.name);
+  const MemoryLease lease(JsonMemory(manifest.text), 2, "JSON", manifest.name);
   Json json = Json::parse(manifest.text);
   for (const NewExpectation& expectation : expectations) {
     Json& expect = json["entries"][expectation.entry]["expect"];

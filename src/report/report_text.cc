@@ -182,7 +182,7 @@ ErrorReport ReportFromJson(const std::string& json, const std::string& name) {
   if (IsJsonDeeperThan(json, kMaxJsonDepth)) {
     throw Error(ErrorCode::InvalidInput, "JSON is nested deeper than " + std::to_string(kMaxJsonDepth) + " levels", file);
   }
-  const MemoryLease lease(JsonMemory(json), 1, "JSON", file);
+  const MemoryLease lease(JsonMemory(json), 2, "JSON", file);
   Json parsed;
   try {
     parsed = Json::parse(json);

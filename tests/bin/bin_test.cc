@@ -7,6 +7,7 @@
 #include <set>
 #include <tuple>
 
+#include "base/least_limit.h"
 #include "raster/raster_helpers.h"
 
 namespace facet::test {
@@ -173,6 +174,30 @@ TEST(Bin, EmptyChunk) {
   BinChunk(MakeTileGrid(10, 10, 8), chunk);
   EXPECT_TRUE(chunk.entries.empty());
   EXPECT_EQ(chunk.begin, std::vector<std::uint32_t>{0});
+}
+
+// Few triangles over many tiles make long lists, which are counted while they grow; what is kept of them stays counted.
+TEST(Bin, ListsAreCharged) {
+  const TileGrid grid = MakeTileGrid(1024, 1024, 8);
+  TriangleChunk source;
+  for (int i = 0; i < 50; ++i) {
+    source.records.push_back(MakeRecord({0, 0}, {1024 * 256, 0}, {1024 * 256, 1024 * 256}));
+  }
+  const std::string refusal = MemoryRefusalUnder(1 << 22, [&] {
+    TriangleChunk chunk = source;
+    BinChunk(grid, chunk);
+  });
+  EXPECT_NE(refusal.find(" for lists of triangles for tiles, and the memory limit is 4.0 MiB; use larger tiles"),
+            std::string::npos)
+      << refusal;
+  MemoryBudget budget(1 << 26);
+  const MemoryBudget::Scope scope(budget);
+  TriangleChunk chunk = source;
+  BinChunk(grid, chunk);
+  ASSERT_GE(chunk.entries.size(), 50u * 128u * 64u);
+  EXPECT_EQ(budget.limit() - budget.Left(),
+            chunk.records.size() * sizeof(TriangleRecord) +
+                (chunk.entries.size() + chunk.tiles.size() + chunk.begin.size()) * sizeof(std::uint32_t));
 }
 
 }  // namespace

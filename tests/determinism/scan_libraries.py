@@ -50,6 +50,7 @@ LIBRARIES = {
     "libz": [],
     "libdeflate": [],
     "libwebp": [Allowed("log|log10|pow", ".*", "encoders, measures of their loss")],
+    "libwebpdemux": [],
     "libOpenEXR": [
         Allowed("acosf|asinf|atan2f|sincosf", ".*LatLongMap.*", "directions, which facet computes itself"),
         Allowed("logf|pow", ".*round12log.*", "a function for those who write files"),
@@ -60,7 +61,7 @@ LIBRARIES = {
     "libIlmThread": [],
 }
 # Beside them facet itself links only these, which decode nothing. The module links OpenImageIO with all that it can read.
-OTHERS = re.compile(r"linux-vdso|ld-linux.*|lib(c|m|dl|rt|pthread|atomic|gcc_s|stdc\+\+|tbb|tinygltf|stb|sharpyuv)|facet_oiio")
+OTHERS = re.compile(r"linux-vdso|ld-linux.*|lib(c|m|dl|rt|pthread|atomic|gcc_s|stdc\+\+|tbb|sharpyuv)|facet_oiio")
 
 
 def name_of(path):

@@ -29,6 +29,8 @@ constexpr std::size_t kSide = 24, kCount = kSide * kSide;
 struct Sheet {
   std::vector<glm::vec3> positions, normals;
   std::vector<glm::vec2> uvs;
+  std::vector<glm::vec4> tangents, colors, weights;
+  std::vector<std::uint8_t> joints;  // four a vertex
   std::vector<std::uint32_t> indices;
   Sheet() {
     for (std::size_t i = 0; i < kCount; ++i) {
@@ -36,6 +38,13 @@ struct Sheet {
       positions.emplace_back(x - 3.1f, y + 0.7f, std::sin(x) * std::cos(y) * 1.3f);
       normals.push_back(glm::normalize(glm::vec3(std::sin(x * 3.0f), std::cos(y * 2.0f), std::sin(x + y) + 0.1f)));
       uvs.emplace_back(x * 0.13f - 0.2f, y * 0.17f);
+      const glm::vec3 across = glm::normalize(glm::cross(normals.back(), glm::vec3(0.3f, 0.8f, -0.5f)));
+      tangents.emplace_back(across, i % 3 == 0 ? -1.0f : 1.0f);
+      // Well inside of [0, 1], so that a reader has nothing to clamp.
+      const float u = 0.5f + 0.4f * std::sin(x * 1.7f), v = 0.5f + 0.35f * std::cos(y * 1.1f);
+      colors.emplace_back(u, v, 0.9f - 0.7f * u, 0.8f - 0.3f * v);
+      weights.emplace_back(0.4f * u, 0.4f - 0.4f * u + 0.1f, 0.3f * v, 0.5f - 0.3f * v);
+      for (std::size_t c = 0; c < 4; ++c) joints.push_back(static_cast<std::uint8_t>(i * 5 + c * 60));
     }
     constexpr std::uint32_t side = kSide;
     for (std::uint32_t i = 0; i + side < kCount; ++i) {
@@ -167,27 +176,115 @@ TEST(Draco, QuantisedNormalsAreTheFormula) {
   }
 }
 
+// Every kind of attribute that glTF has: that of a file, and how it is packed.
+struct Kind {
+  Semantic semantic;
+  testing::DracoAttribute packed;
+};
+
+std::vector<Kind> KindsOf(const Sheet& sheet, int bits) {
+  using Type = draco::GeometryAttribute;
+  const auto floats = [bits](const char* name, const char* type, Type::Type packed, const auto& values) {
+    return Kind{{name, type}, {packed, draco::DT_FLOAT32, static_cast<int>(values[0].length()), values.data(), bits}};
+  };
+  return {floats("POSITION", "VEC3", Type::POSITION, sheet.positions),
+          floats("NORMAL", "VEC3", Type::NORMAL, sheet.normals),
+          floats("TANGENT", "VEC4", Type::GENERIC, sheet.tangents),
+          floats("TEXCOORD_0", "VEC2", Type::TEX_COORD, sheet.uvs),
+          floats("TEXCOORD_1", "VEC2", Type::GENERIC, sheet.uvs),
+          floats("COLOR_0", "VEC4", Type::COLOR, sheet.colors),
+          {{"JOINTS_0", "VEC4", 5121}, {Type::GENERIC, draco::DT_UINT8, 4, sheet.joints.data()}},
+          floats("WEIGHTS_0", "VEC4", Type::GENERIC, sheet.weights)};
+}
+
+struct Packed {
+  std::string bytes;
+  std::vector<Semantic> semantics;
+};
+
+Packed PackAll(const Sheet& sheet, int bits, const testing::DracoPacking& packing) {
+  Packed packed;
+  std::vector<testing::DracoAttribute> attributes;
+  for (const Kind& kind : KindsOf(sheet, bits)) {
+    packed.semantics.push_back(kind.semantic);
+    attributes.push_back(kind.packed);
+  }
+  packed.bytes = PackDraco(kCount, sheet.indices, attributes, packing);
+  return packed;
+}
+
+constexpr testing::DracoPacking kPackings[] = {
+    {draco::MESH_EDGEBREAKER_ENCODING, 0},  {draco::MESH_EDGEBREAKER_ENCODING, 5},
+    {draco::MESH_EDGEBREAKER_ENCODING, 10}, {draco::MESH_SEQUENTIAL_ENCODING, 0},
+    {draco::MESH_SEQUENTIAL_ENCODING, 5},   {draco::MESH_SEQUENTIAL_ENCODING, 10}};
+
+// Those of four numbers. Directions are left as they are where the grid is fine enough for them to stay unit.
+TEST(Draco, QuantisedTangentsColorsAndWeightsAreTheFormula) {
+  const Sheet sheet;
+  for (const testing::DracoPacking& packing : kPackings) {
+    for (const int bits : {14, 20}) {
+      SCOPED_TRACE(std::to_string(packing.method) + ", speed " + std::to_string(packing.speed));
+      const Packed packed = PackAll(sheet, bits, packing);
+      const LoadedScene loaded = Load(packed.bytes, packed.semantics, sheet.indices.size());
+      const Primitive& primitive = First(loaded);
+      ExpectOnGrid(primitive.colors, sheet.colors, bits);
+      ExpectOnGrid(primitive.weights.at(0), sheet.weights, bits);
+      ExpectOnGrid(primitive.tex_coords.at(1), sheet.uvs, bits);
+      const Grid<4> grid(sheet.tangents, bits);
+      ASSERT_EQ(primitive.tangents.size(), kCount);
+      for (const glm::vec4& tangent : primitive.tangents) {
+        for (int c = 0; c < 3; ++c) ASSERT_EQ(tangent[c], grid.At(c, tangent[c])) << bits << " bits";
+        ASSERT_EQ(std::fabs(tangent.w), 1.0f);
+      }
+    }
+  }
+}
+
 #if defined(__x86_64__)
+// What the library itself gives for an attribute: `Value` by point.
+template <class Value>
+std::vector<Value> ByTheLibrary(const draco::Mesh& mesh, std::uint32_t id) {
+  const draco::PointAttribute* const attribute = mesh.GetAttributeByUniqueId(id);
+  EXPECT_NE(attribute, nullptr) << id;
+  EXPECT_EQ(attribute->byte_stride(), std::int64_t(sizeof(Value))) << id;
+  std::vector<Value> values(mesh.num_points());
+  for (std::uint32_t i = 0; i < mesh.num_points(); ++i) attribute->GetMappedValue(draco::PointIndex(i), &values[i]);
+  return values;
+}
+
 // Without fused operations the library's own floats are the same, so that what was said of pictures before still holds.
 TEST(Draco, AsTheLibraryWhereNothingIsFused) {
   const Sheet sheet;
-  const std::string packed =
-      PackDraco(kCount, sheet.indices,
-                {{draco::GeometryAttribute::POSITION, draco::DT_FLOAT32, 3, sheet.positions.data(), 11},
-                 {draco::GeometryAttribute::NORMAL, draco::DT_FLOAT32, 3, sheet.normals.data(), 8}});
-  const LoadedScene loaded = Load(packed, {{"POSITION", "VEC3"}, {"NORMAL", "VEC3"}}, sheet.indices.size());
-  const Primitive& primitive = First(loaded);
-  draco::DecoderBuffer buffer;
-  buffer.Init(packed.data(), packed.size());
-  draco::Decoder decoder;
-  const auto mesh = decoder.DecodeMeshFromBuffer(&buffer).value();
-  ASSERT_EQ(mesh->num_points(), kCount);
-  for (std::uint32_t i = 0; i < kCount; ++i) {
-    glm::vec3 position, normal;
-    mesh->attribute(0)->GetMappedValue(draco::PointIndex(i), &position);
-    mesh->attribute(1)->GetMappedValue(draco::PointIndex(i), &normal);
-    ASSERT_EQ(primitive.positions[i], position);
-    ASSERT_EQ(primitive.normals[i], normal);
+  for (const testing::DracoPacking& packing : kPackings) {
+    for (const int bits : {0, 14, 16}) {
+      SCOPED_TRACE(std::to_string(packing.method) + ", speed " + std::to_string(packing.speed) + ", bits " +
+                   std::to_string(bits));
+      const Packed packed = PackAll(sheet, bits, packing);
+      const LoadedScene loaded = Load(packed.bytes, packed.semantics, sheet.indices.size());
+      const Primitive& primitive = First(loaded);
+      draco::DecoderBuffer buffer;
+      buffer.Init(packed.bytes.data(), packed.bytes.size());
+      draco::Decoder decoder;
+      const auto mesh = decoder.DecodeMeshFromBuffer(&buffer).value();
+      ASSERT_EQ(mesh->num_points(), primitive.positions.size());
+      EXPECT_EQ(primitive.positions, ByTheLibrary<glm::vec3>(*mesh, 0));
+      EXPECT_EQ(primitive.normals, ByTheLibrary<glm::vec3>(*mesh, 1));
+      auto tangents = ByTheLibrary<glm::vec4>(*mesh, 2);
+      for (glm::vec4& tangent : tangents) tangent.w = tangent.w < 0.0f ? -1.0f : 1.0f;
+      EXPECT_EQ(primitive.tangents, tangents);
+      EXPECT_EQ(primitive.tex_coords.at(0), ByTheLibrary<glm::vec2>(*mesh, 3));
+      EXPECT_EQ(primitive.tex_coords.at(1), ByTheLibrary<glm::vec2>(*mesh, 4));
+      EXPECT_EQ(primitive.colors, ByTheLibrary<glm::vec4>(*mesh, 5));
+      const auto joints = ByTheLibrary<glm::u8vec4>(*mesh, 6);
+      EXPECT_EQ(primitive.joints.at(0), std::vector<glm::u16vec4>(joints.begin(), joints.end()));
+      EXPECT_EQ(primitive.weights.at(0), ByTheLibrary<glm::vec4>(*mesh, 7));
+      ASSERT_EQ(mesh->num_faces() * 3, primitive.indices.size());
+      for (std::uint32_t f = 0; f < mesh->num_faces(); ++f) {
+        for (std::size_t c = 0; c < 3; ++c) {
+          ASSERT_EQ(primitive.indices[f * 3 + c], mesh->face(draco::FaceIndex(f))[c].value());
+        }
+      }
+    }
   }
 }
 #endif

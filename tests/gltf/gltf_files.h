@@ -137,6 +137,12 @@ class FileMaker {
   int view_count_ = 0, accessor_count_ = 0;
 };
 
+inline LoadOptions WithinMemory(std::uint64_t limit) {
+  LoadOptions options;
+  options.memory_limit = limit;
+  return options;
+}
+
 inline LoadedScene LoadBytes(const std::string& bytes, const LoadOptions& options = {}) {
   const TempFolder folder;
   return LoadGltf(folder.Write("test.glb", bytes), options);

@@ -115,7 +115,7 @@ TEST(MemoryLimit, IsExactAboutTheFilm) {
   settings.memory_limit = 1 << 20;
   settings.width = 8192;
   settings.height = 8;  // 1 MiB: no room for the rest
-  EXPECT_TRUE(Has(Refusal(loaded.scene, settings), "for geometry, 1.0 MiB for a film of 8192 x 8 pixels"));
+  EXPECT_TRUE(Has(Refusal(loaded.scene, settings), "for the scene, 1.0 MiB for a film of 8192 x 8 pixels"));
   settings.width = settings.height = 64;
   settings.memory_limit = 512 << 20;
   EXPECT_EQ(Refusal(loaded.scene, settings), "");

@@ -1,6 +1,9 @@
 // Frames of one Renderer are those of Render(), whatever stood before them.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <filesystem>
+#include <fstream>
 #include <memory>
 #include <string>
 #include <utility>
@@ -149,6 +152,85 @@ TEST(Renderer, DecodesOnceAndSaysEachTimeWhatFailed) {
   RenderStats stats;
   renderer.Render(settings, film, &stats);
   EXPECT_EQ(stats.images_decoded, 1u);
+}
+
+// Fails until it is told that the picture is there; counts how often it is asked.
+class Late final : public ImageSource {
+ public:
+  explicit Late(bool may_change) : may_change_(may_change) {}
+  std::string Name() const override { return "late.png"; }
+  Image Decode() const override {
+    ++asked;
+    if (!is_there) throw Error(ErrorCode::NotFound, "no such file");
+    return Picture(4, 4, [](int x, int y) { return glm::u8vec4(60 * x, 60 * y, 128, 255); });
+  }
+  bool MayChange() const override { return may_change_; }
+
+  mutable int asked = 0;
+  bool is_there = false;
+
+ private:
+  const bool may_change_;
+};
+
+TEST(Renderer, TriesAgainWhatMayHaveChanged) {
+  for (const bool may_change : {true, false}) {
+    SCOPED_TRACE(may_change);
+    const auto late = std::make_shared<Late>(may_change);
+    Scene scene;
+    Material material = Unlit(glm::vec4(1));
+    material.base_color_texture = Ref(AddTexture(scene, late));
+    Add(scene, Rectangle(-1, -1, 1, 1), AddMaterial(scene, material));
+    Renderer renderer(scene);
+    const RenderSettings settings = Settings(16, 16, 1, Orthographic(1.0));
+    Film film;
+    const auto frame = [&] {
+      RenderStats stats;
+      renderer.Render(settings, film, &stats);
+      return stats;
+    };
+    EXPECT_EQ(frame().warnings.size(), 1u);
+    EXPECT_EQ(frame().warnings.size(), 1u);
+    EXPECT_EQ(late->asked, may_change ? 2 : 1);
+    const Film without = film;
+    late->is_there = true;
+    const RenderStats then = frame();
+    EXPECT_EQ(then.images_decoded, may_change ? 1u : 0u);
+    EXPECT_EQ(then.warnings.size(), may_change ? 0u : 1u);
+    EXPECT_EQ(SameBytes(film, without), !may_change);
+    EXPECT_EQ(frame().images_decoded, 0u);
+    EXPECT_EQ(late->asked, may_change ? 3 : 1) << "what is decoded is not asked for again";
+  }
+}
+
+TEST(Renderer, TriesAgainAFileThatIsThereLater) {
+  const std::filesystem::path folder = testing::TempDir() + "facet_late_" + std::to_string(::getpid());
+  std::filesystem::create_directory(folder);
+  const std::filesystem::path file = folder / "t.png", away = folder / "away.png";
+  WriteImage(file, Picture(4, 4, [](int x, int y) { return glm::u8vec4(60 * x, 60 * y, 128, 255); }));
+  std::ofstream(folder / "s.gltf") << R"({"asset":{"version":"2.0"},"nodes":[{"mesh":0}],
+      "meshes":[{"primitives":[{"attributes":{"POSITION":0,"TEXCOORD_0":0},"material":0}]}],
+      "accessors":[{"componentType":5126,"count":3,"type":"VEC3"}],"images":[{"uri":"t.png"}],"textures":[{"source":0}],
+      "materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}]})";
+  LoadedScene loaded = LoadGltf(folder / "s.gltf");
+  loaded.scene.materials.at(0).unlit = true;
+  Primitive& p = loaded.scene.meshes.at(0).primitives.at(0);
+  p.positions = {{-9, -9, 0}, {9, -9, 0}, {0, 9, 0}};
+  p.tex_coords = {{{0, 0}, {1, 0}, {0, 1}}};
+  Renderer renderer(loaded.scene);
+  std::filesystem::rename(file, away);
+  Film film;
+  RenderStats stats;
+  const RenderSettings settings = Settings(16, 16, 1, Orthographic(1.0));
+  renderer.Render(settings, film, &stats);
+  EXPECT_EQ(stats.images_decoded, 0u);
+  ASSERT_EQ(stats.warnings.size(), 1u);
+  EXPECT_NE(stats.warnings[0].find("t.png"), std::string::npos) << stats.warnings[0];
+  std::filesystem::rename(away, file);
+  renderer.Render(settings, film, &stats);
+  EXPECT_EQ(stats.images_decoded, 1u);
+  EXPECT_TRUE(stats.warnings.empty());
+  std::filesystem::remove_all(folder);
 }
 
 // Side by side: balls with normal maps and without tangents. A morph target deforms the third, the last has no normals.

@@ -3,6 +3,7 @@
 
 #include <functional>
 
+#include "base/least_limit.h"
 #include "facet/error.h"
 #include "report/manifest.h"
 #include "report/scratch.h"
@@ -98,6 +99,33 @@ TEST_F(ManifestFile, WhatIsNoManifestIsRefused) {
                      "goldens.json: /settings/size: 'big' is not a size; give WIDTHxHEIGHT"));
   EXPECT_TRUE(Begins(Refusal(R"({"version": 1, "settings": {"a/b~": 1}, "entries": []})"),
                      "goldens.json: /settings/a~1b~0: there is no setting 'a/b~'; use one of size, "));
+}
+
+// Of so many, work that grows with their square would take hours.
+TEST_F(ManifestFile, AHundredThousandEntriesAreReadAndCharged) {
+  constexpr std::size_t kCount = 100000;
+  std::string entries;
+  for (std::size_t i = 0; i < kCount; ++i) {
+    const std::string number = std::to_string(i);
+    entries += (i ? ",{\"name\":\"" : "{\"name\":\"") + number + "\",\"scene\":\"a.glb\",\"expect\":{\"picture\":\"" +
+               number + ".png\"}}";
+  }
+  const std::filesystem::path path = Scratch::Manifest(entries);
+  EXPECT_EQ(MemoryRefusalUnder(std::uint64_t{1} << 30, [&] {
+              const facet::Manifest manifest = ReadManifest(path);
+              ASSERT_EQ(manifest.entries.size(), kCount);
+              for (std::size_t i = 0; i < kCount; ++i) {
+                ASSERT_FALSE(manifest.entries[i].problem) << i;
+                ASSERT_EQ(manifest.entries[i].name, std::to_string(i));
+              }
+              EXPECT_EQ(manifest.entries.back().pointer, "/entries/99999");
+            }),
+            "");
+  // The JSON alone does not fit, then the entries that are made of it.
+  EXPECT_NE(MemoryRefusalUnder(std::uint64_t{1} << 24, [&] { ReadManifest(path); }).find(" for JSON"),
+            std::string::npos);
+  const std::string refusal = MemoryRefusalUnder(std::uint64_t{320} << 20, [&] { ReadManifest(path); });
+  EXPECT_NE(refusal.find(" for entries"), std::string::npos) << refusal;
 }
 
 TEST_F(ManifestFile, AnUnknownKeyBesideTheEntriesLeavesThemAlone) {
