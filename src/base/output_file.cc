@@ -13,8 +13,8 @@
 #include <cstdio>
 #include <cstring>
 #include <ctime>
+#include <map>
 #include <mutex>
-#include <set>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -52,19 +52,22 @@ fs::path FolderOf(const fs::path& path) { return path.has_parent_path() ? path.p
 
 // Removes temporary files that no process has locked: their writers were killed. Only those of this user, and of a
 // folder with very many files only what comes first, because the next picture shall not wait for that.
-// Once a process: whoever writes a thousand files to one folder need not look a thousand times.
+// After looking at many entries a folder is left alone for a while: whoever writes a thousand files to it need not look
+// a thousand times.
 void RemoveAbandonedFiles(const fs::path& folder) {
+  constexpr int kMostEntries = 65536, kEntriesAFile = 64;
   static std::mutex mutex;
-  static std::set<fs::path> looked_at;
+  static std::map<fs::path, int> owed_for;  // entries of the last look that no file has been written for since
   std::error_code ignored;
+  const fs::path key = fs::absolute(folder, ignored);
   {
     const std::lock_guard lock(mutex);
-    if (!looked_at.insert(fs::absolute(folder, ignored)).second) return;
+    if (int& owed = owed_for[key]; (owed -= kEntriesAFile) > 0) return;
   }
-  constexpr int kMostEntries = 65536;
   DIR* const list = ::opendir(folder.c_str());
   if (list == nullptr) return;
-  for (int i = 0; i < kMostEntries; ++i) {
+  int entries = 0;
+  for (; entries < kMostEntries; ++entries) {
     const dirent* const entry = ::readdir(list);
     if (entry == nullptr) break;
     if (!IsTemporaryName(entry->d_name)) continue;
@@ -78,6 +81,8 @@ void RemoveAbandonedFiles(const fs::path& folder) {
     ::close(file);
   }
   ::closedir(list);
+  const std::lock_guard lock(mutex);
+  owed_for[key] = entries;
 }
 
 // While it lives, writing beyond the limit on the size of files, or to a pipe that nobody reads, fails on this thread;
@@ -130,7 +135,7 @@ std::pair<fs::path, Kind> Follow(fs::path path) {
 // Of a file that is not there yet.
 fs::path Canonical(const fs::path& path) {
   std::error_code ignored;
-  return fs::weakly_canonical(fs::absolute(path, ignored), ignored);
+  return fs::weakly_canonical(fs::absolute(Follow(path).first, ignored), ignored);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <system_error>
@@ -121,9 +122,21 @@ int RunCheck(const CheckCommandOptions& options) {
   std::vector<std::filesystem::path> inputs = {options.manifest};
   for (const CheckedEntry& entry : report.entries) inputs.insert(inputs.end(), entry.files.begin(), entry.files.end());
   RefuseOverwriting(outputs, inputs);
-  for (const auto& [path, png] : pictures) WriteFile(path, *png, OutputFile::Links::Refuse);
-  if (options.html) WriteFile(*options.html, CheckHtml(report));
-  if (options.junit) WriteFile(*options.junit, JUnitXml(report));
+  // One that cannot be written keeps none of the others from those who wait for them.
+  std::optional<Error> failure;
+  const auto try_to = [&](const auto& write) {
+    try {
+      write();
+    } catch (const Error& error) {
+      if (!failure) failure = error;
+    }
+  };
+  for (const auto& [path, png] : pictures) {
+    try_to([&, &to = path, &bytes = *png] { WriteFile(to, bytes, OutputFile::Links::Refuse); });
+  }
+  if (options.html) try_to([&] { WriteFile(*options.html, CheckHtml(report)); });
+  if (options.junit) try_to([&] { WriteFile(*options.junit, JUnitXml(report)); });
+  if (failure) throw Error(*failure);
   if (!report.problems.empty() || report.Count(Verdict::Error) > 0) return kFailed;
   return report.Count(Verdict::Failed) > 0 ? kDiffers : kPassed;
 }

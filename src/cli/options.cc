@@ -3,10 +3,13 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <filesystem>
 #include <memory>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
+#include "base/printable.h"
 #include "cli/usage.h"
 #include "facet/error.h"
 #include "facet/version.h"
@@ -73,7 +76,13 @@ void AddLoading(CLI::App& app, const std::string& group, LoadOptions& load, bool
           "Go on in spite of extensions that the file\nrequires and facet does not have", load.ignore_required_extensions);
   Add(app, group, "--root", "DIR",
       "Where files that the input names must lie; / for\nanywhere [the folder of the file that names them]",
-      [&](const std::string& text) { load.root = text; });
+      [&](const std::string& text) {
+        std::error_code ignored;
+        if (!std::filesystem::is_directory(text, ignored)) {
+          throw Error(ErrorCode::InvalidUsage, "there is no folder " + Quoted(text), "--root", "give one that is there");
+        }
+        load.root = text;
+      });
   app.add_flag_callback(
          "--no-mmap", [&] { load.map_files = false; },
          "Read large files whole: they may change while\nthey are in use")

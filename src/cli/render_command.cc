@@ -40,6 +40,11 @@ class Stopwatch {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
+// With --strict they are failures, also where they are not to be printed.
+void PrintWarnings(const std::vector<std::string>& warnings, const RenderOptions& options) {
+  if (!options.quiet || options.strict) cli::PrintWarnings(warnings, options.strict, options.input.string());
+}
+
 // Settings that contradict the output's format; everything that needs no file.
 void Reconcile(RenderOptions& options) {
   RefuseContradictions(options.request);
@@ -54,12 +59,12 @@ void Reconcile(RenderOptions& options) {
   }
   if (format.linear) {
     request.type = ChannelType::F32;
-    if (request.Given("tonemap") && request.display.tone_map != ToneMap::None && !options.quiet) {
-      PrintWarning("--tonemap: " + kind + " files hold linear light, which is not tone-mapped");
+    std::vector<std::string> warnings;
+    if (request.Given("tonemap") && request.display.tone_map != ToneMap::None) {
+      warnings.push_back("--tonemap: " + kind + " files hold linear light, which is not tone-mapped");
     }
-    if (request.Given("bits") && !options.quiet) {
-      PrintWarning("--bits: " + kind + " files hold floats");
-    }
+    if (request.Given("bits")) warnings.push_back("--bits: " + kind + " files hold floats");
+    PrintWarnings(warnings, options);
   }
   if (!format.alpha && request.settings.background != Background::Environment && !request.display.background_srgb) {
     if (request.Given("background")) {
@@ -69,11 +74,6 @@ void Reconcile(RenderOptions& options) {
     // Light adds to black, ink to white.
     request.display.background_srgb = glm::vec3(format.linear ? 0.0f : 1.0f);
   }
-}
-
-// With --strict they are failures, also where they are not to be printed.
-void PrintWarnings(const std::vector<std::string>& warnings, const RenderOptions& options) {
-  if (!options.quiet || options.strict) cli::PrintWarnings(warnings, options.strict, options.input.string());
 }
 
 void PrintStats(const RenderOptions& options, const CommandStats& stats) {

@@ -186,7 +186,10 @@ void BufferStore::CheckUnused() {
     const auto uri = LenientString(context_.Object("buffers", i), "uri", place);
     if (!uri) continue;
     const Place uri_place(place, "uri");
-    if (IsDataUri(*uri)) continue;
+    if (IsDataUri(*uri)) {
+      if (IsMalformedDataUri(*uri)) uri_place.Warn("is a malformed data URI, and nothing reads it");
+      continue;
+    }
     context_.TryUnused(uri_place, "nothing reads it", [&] {
       const std::filesystem::path path = context_.files.Find(*uri, uri_place);
       std::error_code ignored;

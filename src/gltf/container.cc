@@ -129,13 +129,22 @@ class GlbReader {
     return size;
   }
 
+  // Whether chunks of any types, one after the other, reach from there to the end that the header gives.
+  bool AreChunks(std::size_t at) const {
+    const std::size_t end = std::min<std::size_t>(declared_, file_.size);
+    while (at + kChunkHeaderSize <= end && ReadU32(file_.data + at + 4) != 0) {
+      at += kChunkHeaderSize + ReadU32(file_.data + at);
+    }
+    return at == declared_;
+  }
+
   // Moves `at` behind the chunk that begins there; false where none does.
   bool ReadChunk(std::size_t& at) {
     const std::size_t length = ReadU32(file_.data + at), left = file_.size - at - kChunkHeaderSize;
     const std::uint32_t type = ReadU32(file_.data + at + 4);
     const bool is_bin = type == kBinChunk && !container_.bin;
     // Behind the end that the header gives, only what is missing is looked for.
-    if (!is_bin && (at >= declared_ || length > left || !IsName(type))) return false;
+    if (!is_bin && (at >= declared_ || length > left || !(IsName(type) || AreChunks(at)))) return false;
     const std::size_t size = std::min(length, left);
     if (is_bin) {
       if (length > left) Warn("the BIN chunk's length is " + Count(length) + ", and it has " + std::to_string(left));

@@ -80,6 +80,24 @@ bool IsLargest(const Json& value) {
 }
 
 // `text` is JSON but for numbers that the parser calls too large.
+// Escapes of surrogates that do not come in pairs, which stand for nothing, become U+FFFD.
+std::string WithoutHalfCharacters(std::string_view text) {
+  std::string whole(text);
+  const auto half_at = [&](std::size_t at, char low, char high) {  // "\uD8.." to "\uDB..", or "\uDC.." to "\uDF.."
+    if (at + 6 > text.size() || text[at] != '\\' || text[at + 1] != 'u' || (text[at + 2] | 0x20) != 'd') return false;
+    const char digit = static_cast<char>(text[at + 3] | (text[at + 3] >= 'A' ? 0x20 : 0));
+    return digit >= low && digit <= high;
+  };
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    if (text[at] != '\\') continue;
+    const bool first = half_at(at, '8', '9') || half_at(at, 'a', 'b'), second = half_at(at, 'c', 'f');
+    const bool pair = first && half_at(at + 6, 'c', 'f');
+    if ((first && !pair) || second) whole.replace(at + 2, 4, "FFFD");
+    at += pair ? 11 : first || second ? 5 : 1;
+  }
+  return whole;
+}
+
 std::string WithFiniteNumbers(std::string_view text) {
   std::string finite;
   finite.reserve(text.size() + 32);
@@ -161,7 +179,7 @@ Json ParseJson(std::string_view text, const Place& place) {
   while (!text.empty() && text.back() == '\0') text.remove_suffix(1);
   constexpr const char* kNotUtf8 = "is not UTF-8; what cannot be read of it became U+FFFD";
   constexpr const char* kTooLarge = "is beyond the range of numbers; the largest is read";
-  std::string valid, finite;
+  std::string valid, finite, whole;
   MemoryLease for_valid, for_finite;
   const std::size_t bad_byte = FirstBadByte(text);
   if (bad_byte < text.size()) {
@@ -170,9 +188,16 @@ Json ParseJson(std::string_view text, const Place& place) {
     text = valid;
   }
   Json root;
+  bool has_halves = false;
   try {
     try {
       root = Json::parse(text.begin(), text.end());
+    } catch (const Json::parse_error&) {
+      for_finite = MemoryLease(text.size(), 1, "JSON");
+      whole = WithoutHalfCharacters(text);
+      has_halves = whole != text;
+      if (!has_halves) throw;
+      root = Json::parse(whole.begin(), whole.end());
     } catch (const Json::out_of_range&) {
       for_finite = MemoryLease(text.size(), 12, "JSON");
       finite = WithFiniteNumbers(text);
@@ -182,6 +207,9 @@ Json ParseJson(std::string_view text, const Place& place) {
     FailToParse(error, place);
   }
   Normalise(root, place);
+  if (has_halves && !WarnWhere(HasReplacement, "has half of a character; it became U+FFFD", root, place)) {
+    place.Warn("halves of characters in its JSON were replaced");
+  }
   if (!finite.empty()) WarnWhere(IsLargest, kTooLarge, root, place);
   if (!valid.empty() && !WarnWhere(HasReplacement, kNotUtf8, root, place)) {
     place.Warn("bytes that are not UTF-8 were replaced, from byte " + std::to_string(bad_byte) + " of the JSON on");

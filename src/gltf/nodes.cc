@@ -152,12 +152,15 @@ class NodeReader {
   void Read(std::size_t index, bool shown, const Place& place) {
     const Json& object = context_.Object("nodes", index);
     Node& node = scene_.nodes[index];
-    const auto part = [&](const char* what, const auto& read) { context_.Try(shown, place, what, read); };
-    part("its transform is ignored", [&] { ReadTransform(object, node, place); });
-    part("its mesh is ignored", [&] { node.mesh = IndexAt(object, "mesh", scene_.meshes.size(), "meshes", place); });
-    part("its skin is ignored", [&] { node.skin = IndexAt(object, "skin", scene_.skins.size(), "skins", place); });
-    part("its skin is ignored", [&] { AttachSkin(node, Place(place, "skin")); });
-    part("its instances are ignored", [&] { ReadInstances(context_, reader_, object, node, place); });
+    const auto part = [&](bool needed, const char* what, const auto& read) { context_.Try(needed, place, what, read); };
+    part(shown, "its transform is ignored", [&] { ReadTransform(object, node, place); });
+    part(shown, "its mesh is ignored",
+         [&] { node.mesh = IndexAt(object, "mesh", scene_.meshes.size(), "meshes", place); });
+    const bool draws = shown && node.mesh >= 0;
+    part(draws, "its skin is ignored",
+         [&] { node.skin = IndexAt(object, "skin", scene_.skins.size(), "skins", place); });
+    part(draws, "its skin is ignored", [&] { AttachSkin(node, Place(place, "skin")); });
+    part(draws, "its instances are ignored", [&] { ReadInstances(context_, reader_, object, node, place); });
     node.camera = LenientIndex(object, "camera", scene_.cameras.size(), "cameras", place);
     if (node.camera >= 0 && !usable_cameras_[static_cast<std::size_t>(node.camera)]) node.camera = -1;
     ReadLight(object, node, place);
@@ -230,13 +233,37 @@ class NodeReader {
   std::vector<std::optional<SkinnedMesh>> skinned_;  // by mesh
 };
 
+// By node: whether something to be seen, to see with or to see by hangs from it. Where others stand is all one.
+std::vector<bool> CarryThings(const Context& context, const Scene& scene) {
+  std::vector<int> parents(scene.nodes.size(), -1);
+  for (std::size_t i = 0; i < parents.size(); ++i) {
+    for (const int child : scene.nodes[i].children) parents[std::size_t(child)] = int(i);
+  }
+  std::vector<bool> carry(parents.size(), false);
+  for (std::size_t i = 0; i < parents.size(); ++i) {
+    const Json& object = context.Object("nodes", i);
+    const bool has_things = Find(object, "mesh") != nullptr || Find(object, "camera") != nullptr ||
+                            Find(object, "extensions") != nullptr;  // lights
+    for (int at = has_things ? int(i) : -1; at >= 0 && !carry[std::size_t(at)]; at = parents[std::size_t(at)]) {
+      carry[std::size_t(at)] = true;
+    }
+  }
+  for (const Skin& skin : scene.skins) {
+    for (int at : skin.joints) {
+      for (; at >= 0 && !carry[std::size_t(at)]; at = parents[std::size_t(at)]) carry[std::size_t(at)] = true;
+    }
+  }
+  return carry;
+}
+
 }  // namespace
 
 void ReadNodes(Context& context, AccessorReader& reader, const Shown& shown, const std::vector<bool>& usable_cameras,
                Scene& scene) {
   const Place list_place(context.place, "nodes");
   NodeReader nodes(context, reader, usable_cameras, scene);
-  for (std::size_t i = 0; i < scene.nodes.size(); ++i) nodes.Read(i, shown.nodes[i], Place(list_place, i));
+  const std::vector<bool> carry = CarryThings(context, scene);
+  for (std::size_t i = 0; i < scene.nodes.size(); ++i) nodes.Read(i, shown.nodes[i] && carry[i], Place(list_place, i));
   nodes.ClearUnusedJoints();
 }
 

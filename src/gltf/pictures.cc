@@ -122,7 +122,8 @@ std::shared_ptr<const ImageSource> OpenSource(Context& context, BufferStore& buf
   std::filesystem::path path = context.files.Find(*uri, Place(place, "uri"));
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored)) {
-    Fail(place, "the image file \"" + path.string() + "\" does not exist");
+    const bool is_there = std::filesystem::exists(path, ignored);
+    Fail(place, "the image file \"" + path.string() + (is_there ? "\" is not a regular file" : "\" does not exist"));
   }
   return std::make_shared<ImageFile>(std::move(path));
 }

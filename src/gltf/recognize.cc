@@ -185,7 +185,7 @@ std::optional<ForeignFile> RecognizeForeign(std::string_view file) {
     return ForeignFile{"a 3DS file", kConvert};
   }
   if (file.find_first_not_of('\0') == std::string_view::npos) {
-    return ForeignFile{"zeros throughout", "fetch the file again"};
+    return ForeignFile{file.empty() ? "empty" : "zeros throughout", "fetch the file again"};
   }
   std::string_view text = file;
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);

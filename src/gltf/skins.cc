@@ -18,6 +18,10 @@ void ReadSkin(Context& context, AccessorReader& reader, const Json& object, Skin
   const Place matrices_place(place, "inverseBindMatrices");
   const AccessorView& view = reader.View(accessor);
   if (view.type != ComponentType::F32 || view.components != 16) Fail(matrices_place, "are not float matrices");
+  if (view.count == 0) {
+    matrices_place.Warn("has no matrices; none are used");
+    return;
+  }
   if (view.count < skin.joints.size()) {
     Fail(matrices_place,
          "has " + std::to_string(view.count) + " matrices for " + std::to_string(skin.joints.size()) + " joints");

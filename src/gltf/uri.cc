@@ -89,6 +89,7 @@ std::optional<Bytes> DecodeBase64(std::string_view text) {
     }
   }
   if (!(bad & 0x80u) && text.size() % 4 != 1) return bytes.Freeze();
+  bytes = {};
   MemoryBudget::Current().Release(size, kDataUris);
   if (std::none_of(text.begin(), text.end(), IsBlank)) return std::nullopt;
   const MemoryLease lease(text.size(), 1, kDataUris);
@@ -115,6 +116,16 @@ std::optional<Bytes> DecodeDataUri(std::string_view uri) {
   MutableBytes bytes = AllocateBytes(text.size());
   std::memcpy(bytes.data(), text.data(), text.size());
   return bytes.Freeze();
+}
+
+bool IsMalformedDataUri(std::string_view uri) {
+  const std::size_t comma = uri.find(',');
+  if (comma == std::string_view::npos) return true;
+  const std::string_view body = uri.substr(comma + 1);
+  const auto is_stranger = [](char c) {
+    return (kBase64Digits[static_cast<unsigned char>(c)] & 0x80u) != 0 && c != '=' && c != '%' && !IsBlank(c);
+  };
+  return uri.substr(0, comma).ends_with(";base64") && std::any_of(body.begin(), body.end(), is_stranger);
 }
 
 bool HasScheme(std::string_view uri) {

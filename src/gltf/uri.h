@@ -18,6 +18,9 @@ bool IsDataUri(std::string_view uri);
 // the memory budget. Throws Error(OutOfMemory).
 std::optional<Bytes> DecodeDataUri(std::string_view uri);
 
+// Whether it can be seen without decoding that a data URI is malformed.
+bool IsMalformedDataUri(std::string_view uri);
+
 // Standard or URL-safe alphabet, padding optional, blanks and line breaks ignored; nothing when it is malformed. Charges
 // and throws likewise.
 std::optional<Bytes> DecodeBase64(std::string_view text);

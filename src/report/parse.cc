@@ -180,6 +180,14 @@ Orbit ParseOrbit(std::string_view option, std::string_view text) {
   return orbit;
 }
 
+std::string LowerCase(std::string_view text) {
+  std::string lower(text);
+  for (char& c : lower) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return lower;
+}
+
 glm::vec3 ParseColor(std::string_view option, std::string_view text) {
   if (text.size() == 4 || text.size() == 7) {
     std::uint32_t value = 0;
@@ -192,10 +200,7 @@ glm::vec3 ParseColor(std::string_view option, std::string_view text) {
       return FromHex(value);
     }
   }
-  std::string name(text);
-  for (char& c : name) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
+  const std::string name = LowerCase(text);
   for (const NamedColor& color : kCssColors) {
     if (color.name == name) return FromHex(color.rgb);
   }

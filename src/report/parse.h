@@ -49,6 +49,9 @@ struct Orbit {
 };
 Orbit ParseOrbit(std::string_view option, std::string_view text);
 
+// Of ASCII's letters.
+std::string LowerCase(std::string_view text);
+
 // #rgb, #rrggbb or a colour's name in CSS, in letters of any case; sRGB in [0, 1].
 glm::vec3 ParseColor(std::string_view option, std::string_view text);
 

@@ -78,9 +78,10 @@ constexpr std::array kOptions = {
     RequestOption{"background", kOutput, "WHAT", "transparent",
                   "#rgb, #rrggbb, a colour's name, transparent,\nor environment [transparent]",
                   [](RenderRequest& r, Text where, Text text) {
-                    r.settings.background = text == "environment" ? Background::Environment : Background::Transparent;
+                    const std::string word = LowerCase(text);
+                    r.settings.background = word == "environment" ? Background::Environment : Background::Transparent;
                     r.display.background_srgb.reset();
-                    if (text != "environment" && text != "transparent") {
+                    if (word != "environment" && word != "transparent") {
                       r.display.background_srgb = ParseColor(where, text);
                     }
                   }},

@@ -292,7 +292,7 @@ TEST(Mask, KeepsWhatReachesTheCutoff) {
   for (int cutoff : {0, 1, 100, 128, 254, 255, 256}) {
     Scene scene;
     Material material = Unlit(glm::vec4(0.5f, 0.25f, 1.0f, 1.0f), AlphaMode::Mask);
-    material.alpha_cutoff = (float(cutoff) - 0.5f) / 255.0f;
+    material.alpha_cutoff = std::max(float(cutoff) - 0.5f, 0.0f) / 255.0f;
     material.base_color_texture = Ref(AddTexture(scene, image, sampler));
     Add(scene, Rectangle(-1, -1, 1, 1), AddMaterial(scene, material));
     const Film film = Render(scene, Settings(16, 16, 1, Orthographic(1.0)));

@@ -34,17 +34,17 @@ class FacetMemoryLimit : public testing::Test {
   const std::string tiny_ = folder_ / "tiny.gltf", whole_ = folder_ / "whole.png", bands_ = folder_ / "bands.png";
 };
 
-// A film of 4 MiB is more than a quarter of 12 MiB: it comes in bands, of 96 rows.
+// A film of 6 MiB is more than a quarter of 20 MiB: it comes in bands.
 TEST_F(FacetMemoryLimit, BandsMakeTheSamePictureAndText) {
   for (const std::vector<std::string>& options :
        std::vector<std::vector<std::string>>{{},
                                              {"--bits", "16", "--threads", "1"},
                                              {"--background", "teal", "--tile-size", "8"},
                                              {"--background", "environment", "--samples", "1", "--threads", "3"}}) {
-    std::vector<std::string> all = {"--size", "512x509"};
+    std::vector<std::string> all = {"--size", "768x509"};
     all.insert(all.end(), options.begin(), options.end());
     ASSERT_EQ(Draw(kShowcase, whole_, all).exit_code, 0);
-    all.insert(all.end(), {"--memory-limit", "12MiB"});
+    all.insert(all.end(), {"--memory-limit", "20MiB"});
     const Outcome run = Draw(kShowcase, bands_, all);
     ASSERT_EQ(run.exit_code, 0) << run.err;
     EXPECT_EQ(run.out + run.err, "");
@@ -61,7 +61,7 @@ TEST_F(FacetMemoryLimit, BandsMakeTheSamePictureAndText) {
 TEST_F(FacetMemoryLimit, APictureThatFailsHalfWayLeavesNothing) {
   WriteText(bands_, "before");
   const std::vector<std::string> arguments = {"render",  kShowcase,        "-o",   bands_, "--size",
-                                              "512x512", "--memory-limit", "12MiB"};
+                                              "768x512", "--memory-limit", "20MiB"};
   const Outcome run = RunFacet(arguments, {.max_file_bytes = 20000});
   EXPECT_EQ(run.exit_code, 6) << run.err;
   EXPECT_TRUE(IsOneErrorLine(run.err)) << run.err;
@@ -95,7 +95,7 @@ TEST_F(FacetMemoryLimit, RefusesFilms) {
 }
 
 TEST_F(FacetMemoryLimit, RefusesTextures) {
-  ExpectRefused(Draw(kShowcase, whole_, {"--size", "64x64", "--memory-limit", "1MiB"}), "for textures (the largest: ");
+  ExpectRefused(Draw(kShowcase, whole_, {"--size", "64x64", "--memory-limit", "4MiB"}), "for textures (the largest: ");
 }
 
 TEST_F(FacetMemoryLimit, RefusesEnvironmentsByTheirHeader) {

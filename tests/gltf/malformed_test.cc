@@ -98,7 +98,7 @@ TEST(Malformed, WhatIsRepairedIsNamed) {
       {"validator/base/animation/unresolved_sampler_output.gltf", "animations[0].channels[0]: ignored"},
       {"validator/base/buffer/invalid_object.gltf", "buffers[0]: is not an object"},
       {"validator/base/buffer/invalid_uri_data.glb", "is a malformed data URI, and nothing reads it"},
-      {"validator/base/buffer/not_found.gltf", "\"not_found.bin\" is not there, and nothing reads it"},
+      {"validator/base/buffer/not_found.gltf", "not_found.bin\" is not there"},
       {"validator/base/buffer_view/invalid_length.gltf", "reach past the 4 of buffers[0]"},
       {"validator/base/buffer_view/invalid_stride_multiple.gltf", "5 is not a multiple of 4 up to 252"},
       {"validator/base/buffer_view/unresolved_buffer.gltf", "bufferViews[0]: nothing reads it"},
