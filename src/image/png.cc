@@ -63,7 +63,7 @@ struct Header {
   png_uint_32 file_row_bytes;  // of the widest pass
 };
 
-// Up to the first row, with every transformation set. False: the complaint says why.
+// All before the pixels. False: the complaint says why.
 bool ReadHeader(png_structp png, png_infop info, Header* header) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
   // The limits are checked by the caller, who names the size.
@@ -75,6 +75,12 @@ bool ReadHeader(png_structp png, png_infop info, Header* header) {
   header->file_row_bytes = static_cast<png_uint_32>(png_get_rowbytes(png, info));
   header->width = png_get_image_width(png, info);
   header->height = png_get_image_height(png, info);
+  return true;
+}
+
+// Sets every transformation. libpng makes room for its rows here: their length must have been checked before.
+bool Prepare(png_structp png, png_infop info, Header* header) {
+  if (setjmp(png_jmpbuf(png)) != 0) return false;
   png_set_expand(png);  // palettes, grey below 8 bits, tRNS
   if (std::endian::native == std::endian::little) png_set_swap(png);
   header->passes = png_set_interlace_handling(png);
@@ -342,6 +348,7 @@ void DecodePng(std::span<const std::byte> bytes, const std::string& name, int pi
   if (std::uint64_t(header.file_row_bytes) * header.height / kMostUnpacked > bytes.size()) {
     throw Error(ErrorCode::InvalidInput, "broken PNG: the file is cut off", name);
   }
+  if (!Prepare(reader.png, reader.info, &header)) throw fail();
 
   Image image;
   image.width = static_cast<int>(header.width);

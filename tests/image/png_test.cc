@@ -1,6 +1,9 @@
 #include <png.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include <array>
+#include <fstream>
 #include <map>
 #include <string>
 #include <string_view>
@@ -273,6 +276,31 @@ TEST(Png, RefusesBombsByTheirSize) {
   EXPECT_EQ(CodeOf([&] { DecodeImage(bytes, "bomb"); }, &what), ErrorCode::OutOfMemory);
   WithSize(bytes, 0, 32768);
   EXPECT_EQ(CodeOf([&] { DecodeImage(bytes, "empty"); }, &what), ErrorCode::InvalidInput);
+}
+
+// libpng reads chunks that stand before the header, and takes memory for a row before anybody asks for the row.
+TEST(Png, RefusesLongRowsBeforeTheyTakeMemory) {
+  RawPng raw;
+  raw.color_type = PNG_COLOR_TYPE_RGB_ALPHA;
+  raw.bit_depth = 16;
+  raw.rows = std::vector<unsigned char>(32);
+  auto bytes = Make(raw);
+  WithSize(bytes, 0x10000000, 1);
+  const std::string_view chunk("\0\0\0\0faCt\0\0\0\0", 12);  // its checksum is wrong, which is no matter
+  const auto* const begin = reinterpret_cast<const std::byte*>(chunk.data());
+  bytes.insert(bytes.begin() + 8, begin, begin + chunk.size());
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_AS, &before), 0);
+  std::size_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  rlimit little = before;
+  little.rlim_cur = pages * static_cast<std::size_t>(getpagesize()) + (std::size_t{256} << 20);  // a row has 2 GiB
+  ASSERT_EQ(setrlimit(RLIMIT_AS, &little), 0);
+  std::string what;
+  const ErrorCode code = CodeOf([&] { DecodeImage(bytes, "bomb"); }, &what);
+  EXPECT_EQ(setrlimit(RLIMIT_AS, &before), 0);
+  EXPECT_EQ(code, ErrorCode::OutOfMemory) << what;
+  EXPECT_NE(what.find("268435456 x 1"), std::string::npos) << what;
 }
 
 }  // namespace
