@@ -104,6 +104,19 @@ bool ReadEnd(png_structp png) {
   return true;
 }
 
+// libpng makes room for a text as long as its chunk says before it looks whether the file has one.
+bool HoldsChunksBeforePixels(std::span<const std::byte> bytes) {
+  constexpr std::size_t kAround = 12;  // length, type and checksum of a chunk
+  for (std::size_t at = 8; at + kAround <= bytes.size();) {
+    std::size_t length = 0;
+    for (std::size_t i = 0; i < 4; ++i) length = length << 8 | std::to_integer<std::size_t>(bytes[at + i]);
+    if (std::memcmp(bytes.data() + at + 4, "IDAT", 4) == 0) return true;
+    if (length > bytes.size() - at - kAround) return false;
+    at += kAround + length;
+  }
+  return true;  // libpng misses the pixels
+}
+
 // All chunks before the pixels, their texts unpacked.
 bool ReadInfo(png_structp png, png_infop info) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
@@ -381,6 +394,7 @@ void DecodePng(std::span<const std::byte> bytes, const std::string& name, int pi
 }
 
 std::map<std::string, std::string> ReadPngText(std::span<const std::byte> bytes, const std::string& name) {
+  if (!HoldsChunksBeforePixels(bytes)) throw Error(ErrorCode::InvalidInput, "broken PNG: the file is cut off", name);
   Reader reader;
   Cursor cursor{bytes.data(), bytes.size()};
   png_set_read_fn(reader.png, &cursor, ReadBytes);

@@ -150,8 +150,7 @@ TEST(Png, PalettesAndTransparentColours) {
   raw.palette_alpha = {128};
   const Image transparent = DecodeImage(Make(raw), "palette");
   EXPECT_EQ(transparent.channels, 4);
-  EXPECT_EQ(Numbers(transparent),
-            (std::vector<int>{1, 2, 3, 128, 4, 5, 6, 255, 7, 8, 9, 255, 1, 2, 3, 128}));
+  EXPECT_EQ(Numbers(transparent), (std::vector<int>{1, 2, 3, 128, 4, 5, 6, 255, 7, 8, 9, 255, 1, 2, 3, 128}));
 
   RawPng key;
   key.color_type = PNG_COLOR_TYPE_GRAY;
@@ -263,6 +262,30 @@ TEST(Png, TextBombsAreLeftPacked) {
   EXPECT_LT(ReadImageText(EncodePng(image, many), "picture").size(), 100u);
 }
 
+// Calls a function that gets no more than 256 MiB from the system. (The sanitizers have taken theirs already.)
+template <class Body>
+void WithLittleMemory(const Body& body) {
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_AS, &before), 0);
+  std::size_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  rlimit little = before;
+  little.rlim_cur = pages * static_cast<std::size_t>(getpagesize()) + (std::size_t{256} << 20);
+  ASSERT_EQ(setrlimit(RLIMIT_AS, &little), 0);
+  body();
+  EXPECT_EQ(setrlimit(RLIMIT_AS, &before), 0);
+}
+
+TEST(Png, TextsThatTheFileDoesNotHoldTakeNoMemory) {
+  auto bytes = EncodePng(MakePattern(4, 4, 3, ChannelType::U8), {{"Software", "facet"}});
+  const std::string_view file(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  bytes[file.find("tEXt") - 4] = std::byte{0x68};  // 1.6 GiB
+  std::string what;
+  WithLittleMemory(
+      [&] { EXPECT_EQ(CodeOf([&] { ReadImageText(bytes, "small.png"); }, &what), ErrorCode::InvalidInput); });
+  EXPECT_EQ(what, "small.png: broken PNG: the file is cut off");
+}
+
 TEST(Png, RefusesBombsByTheirSize) {
   RawPng raw;
   raw.width = 8;
@@ -289,16 +312,9 @@ TEST(Png, RefusesLongRowsBeforeTheyTakeMemory) {
   const std::string_view chunk("\0\0\0\0faCt\0\0\0\0", 12);  // its checksum is wrong, which is no matter
   const auto* const begin = reinterpret_cast<const std::byte*>(chunk.data());
   bytes.insert(bytes.begin() + 8, begin, begin + chunk.size());
-  rlimit before{};
-  ASSERT_EQ(getrlimit(RLIMIT_AS, &before), 0);
-  std::size_t pages = 0;
-  std::ifstream("/proc/self/statm") >> pages;
-  rlimit little = before;
-  little.rlim_cur = pages * static_cast<std::size_t>(getpagesize()) + (std::size_t{256} << 20);  // a row has 2 GiB
-  ASSERT_EQ(setrlimit(RLIMIT_AS, &little), 0);
   std::string what;
-  const ErrorCode code = CodeOf([&] { DecodeImage(bytes, "bomb"); }, &what);
-  EXPECT_EQ(setrlimit(RLIMIT_AS, &before), 0);
+  ErrorCode code{};
+  WithLittleMemory([&] { code = CodeOf([&] { DecodeImage(bytes, "bomb"); }, &what); });  // a row has 2 GiB
   EXPECT_EQ(code, ErrorCode::OutOfMemory) << what;
   EXPECT_NE(what.find("268435456 x 1"), std::string::npos) << what;
 }
