@@ -106,13 +106,12 @@ bool ReadEnd(png_structp png) {
 
 // libpng makes room for a text as long as its chunk says before it looks whether the file has one.
 bool HoldsChunksBeforePixels(std::span<const std::byte> bytes) {
-  constexpr std::size_t kAround = 12;  // length, type and checksum of a chunk
-  for (std::size_t at = 8; at + kAround <= bytes.size();) {
+  for (std::size_t at = 8; at + 12 <= bytes.size();) {  // 12: length, type and checksum
     std::size_t length = 0;
     for (std::size_t i = 0; i < 4; ++i) length = length << 8 | std::to_integer<std::size_t>(bytes[at + i]);
     if (std::memcmp(bytes.data() + at + 4, "IDAT", 4) == 0) return true;
-    if (length > bytes.size() - at - kAround) return false;
-    at += kAround + length;
+    if (length > bytes.size() - at - 12) return false;
+    at += 12 + length;
   }
   return true;  // libpng misses the pixels
 }
