@@ -55,6 +55,7 @@ std::string Dump(const std::vector<Chunk>& chunks) {
 }
 
 void Mutate(std::string& data, std::size_t more) {
+  if (data.size() + more == 0) return;
   std::vector<std::uint8_t> bytes(data.size() + more);
   std::memcpy(bytes.data(), data.data(), data.size());
   const std::size_t size = LLVMFuzzerMutate(bytes.data(), data.size(), bytes.size());
