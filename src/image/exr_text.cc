@@ -79,9 +79,27 @@ Reader Open(std::span<const std::byte> bytes, const std::string& name, bool* sev
   return reader;
 }
 
+// OpenEXR reads values of these types by their own lengths, whatever a header says: where the two differ, it would take
+// what stands behind for something else than is checked here.
+struct TypeSize {
+  std::string_view type;
+  std::size_t size;
+};
+constexpr TypeSize kSizes[] = {{"box2f", 16},      {"box2i", 16},   {"chromaticities", 32},
+                               {"compression", 1}, {"double", 8},   {"envmap", 1},
+                               {"float", 4},       {"int", 4},      {"keycode", 28},
+                               {"lineOrder", 1},   {"m33d", 72},    {"m33f", 36},
+                               {"m44d", 128},      {"m44f", 64},    {"rational", 8},
+                               {"tiledesc", 9},    {"timecode", 8}, {"v2d", 16},
+                               {"v2f", 8},         {"v2i", 8},      {"v3d", 24},
+                               {"v3f", 12},        {"v3i", 12},     {"deepImageState", 1}};
+
 // What OpenEXR makes room for by a number in an attribute's value.
 void CheckAttribute(const Attribute& attribute, std::size_t file_size, const std::string& name) {
   Reader value(attribute.value, name);
+  for (const auto& [type, size] : kSizes) {
+    if (attribute.type == type && attribute.value.size() != size) value.CutOff();
+  }
   if (attribute.name == "dataWindow" && attribute.type == "box2i") {
     const auto left = value.Number<std::int32_t>(), top = value.Number<std::int32_t>();
     const auto right = value.Number<std::int32_t>(), bottom = value.Number<std::int32_t>();
@@ -96,7 +114,10 @@ void CheckAttribute(const Attribute& attribute, std::size_t file_size, const std
     if (value.Number<std::uint32_t>() > file_size / 8) value.CutOff();
   } else if (attribute.type == "preview") {
     const std::uint64_t width = value.Number<std::uint32_t>(), height = value.Number<std::uint32_t>();
-    if (width * height > value.Left() / 4) value.CutOff();
+    if (value.Left() % 4 != 0 || width * height != value.Left() / 4) value.CutOff();
+  } else if (attribute.type == "chlist") {
+    while (!value.Word().empty()) value.Take(16);
+    if (value.Left() > 0) value.CutOff();
   } else if (attribute.type == "stringvector") {
     while (value.Left() > 0) value.Take(value.Number<std::uint32_t>());
   }

@@ -1,10 +1,10 @@
 // The OpenImageIO module: formats that facet itself does not read, agreement with facet's decoders, and its absence.
 #include <chrono>
-#include <thread>
 #include <cmath>
 #include <cstdint>
 #include <span>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "base/output_file.h"
@@ -12,17 +12,17 @@
 #include "facet/load.h"
 #include "image/codec.h"
 #include "image/convert.h"
-#include "image/oiio_loader.h"
 #include "image/image_test_util.h"
+#include "image/oiio_loader.h"
 
 namespace facet {
 namespace {
 
-#define FACET_NEEDS_MODULE()                          \
-  try {                                               \
-    RequireOiio();                                    \
-  } catch (const Error& error) {                      \
-    GTEST_SKIP() << error.what();                     \
+#define FACET_NEEDS_MODULE()      \
+  try {                           \
+    RequireOiio();                \
+  } catch (const Error& error) {  \
+    GTEST_SKIP() << error.what(); \
   }
 
 std::vector<std::filesystem::path> Files(const std::filesystem::path& folder, const char* extension) {
@@ -210,7 +210,8 @@ std::string Attribute(const std::string& name, const std::string& type, const st
   return name + '\0' + type + '\0' + Word(static_cast<std::uint32_t>(value.size())) + value;
 }
 
-// OpenEXR, which would take memory for what these headers say, never sees them: each is refused with or without the module.
+// OpenEXR, which would take memory for what these headers say, never sees them: each is refused with or without the
+// module.
 TEST(Module, ExrHeadersAreCheckedBeforeOpenExrReadsThem) {
   const auto refusal = [](const std::string& attributes, std::uint32_t flags, ErrorCode code) {
     const std::string file = Word(20000630) + Word(2 | flags) + attributes + '\0';
@@ -223,7 +224,11 @@ TEST(Module, ExrHeadersAreCheckedBeforeOpenExrReadsThem) {
   const std::string preview = Attribute("preview", "preview", Word(20000) + Word(20000) + std::string(16, 'a'));
   const std::string texts = Attribute("views", "stringvector", Word(4) + "left" + Word(0x70000000) + "right");
   const std::string chunks = Attribute("chunkCount", "int", Word(0x10000000));
-  for (const std::string& attribute : {beyond, preview, texts, chunks}) {
+  // Values of another length than their type has.
+  const std::string channels =
+      Attribute("channels", "chlist", "R" + std::string(17, '\0') + "G" + std::string(17, '\0'));
+  const std::string number = Attribute("number", "int", Word(1) + Word(2));
+  for (const std::string& attribute : {beyond, preview, texts, chunks, channels, number}) {
     EXPECT_EQ(refusal(attribute, 0, ErrorCode::InvalidInput), cut_off);
   }
   const std::string wide = Attribute("dataWindow", "box2i", Word(0x80000000) + Word(0) + Word(0x7FFFFFFF) + Word(0));
