@@ -169,7 +169,8 @@ class PrimitiveReader {
 };
 
 void PrimitiveReader::ReadTexCoords(AttributeSource& source, const Place& place) {
-  for (const auto& [semantic, accessor] : attributes_) {
+  for (const auto& attribute : attributes_) {
+    const std::string& semantic = attribute.first;  // not bound: Clang 14's lambdas do not capture bindings
     const int set = SetOf(semantic, "TEXCOORD");
     if (set < 0 || set >= kMaxSets) continue;
     const auto i = static_cast<std::size_t>(set);

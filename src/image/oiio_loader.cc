@@ -10,6 +10,7 @@
 
 #include "facet/error.h"
 #include "image/codec.h"
+#include "image/exr_text.h"
 #include "image/limits.h"
 #include "image/oiio_abi.h"
 
@@ -28,7 +29,7 @@ struct Module {
 };
 
 std::mutex mutex;
-std::optional<Module> opened;                          // guarded by mutex; never closed
+std::optional<Module> opened;                            // guarded by mutex; never closed
 const std::vector<fs::path>* search_override = nullptr;  // guarded by mutex
 
 std::vector<fs::path> Candidates() {
@@ -111,16 +112,11 @@ Module GetFor(const std::string& name, const char* need) {
 
 ErrorCode CodeOf(int result) {
   switch (result) {
-    case FACET_OIIO_INVALID_INPUT:
-      return ErrorCode::InvalidInput;
-    case FACET_OIIO_TOO_LARGE:
-      return ErrorCode::OutOfMemory;
-    case FACET_OIIO_OUTPUT_FAILED:
-      return ErrorCode::OutputFailed;
-    case FACET_OIIO_UNSUPPORTED:
-      return ErrorCode::Unsupported;
-    default:
-      return ErrorCode::Internal;
+    case FACET_OIIO_INVALID_INPUT: return ErrorCode::InvalidInput;
+    case FACET_OIIO_TOO_LARGE: return ErrorCode::OutOfMemory;
+    case FACET_OIIO_OUTPUT_FAILED: return ErrorCode::OutputFailed;
+    case FACET_OIIO_UNSUPPORTED: return ErrorCode::Unsupported;
+    default: return ErrorCode::Internal;
   }
 }
 
@@ -128,6 +124,7 @@ ErrorCode CodeOf(int result) {
 
 Image DecodeWithOiio(std::span<const std::byte> bytes, std::string_view extension, const std::string& name,
                      bool as_stored) {
+  if (LooksLikeExr(bytes)) CheckExrHeader(bytes, name);
   const Module module = GetFor(name, "not PNG, JPEG, WebP or Radiance, and ");
   FacetOiioPicture picture{};
   char message[kMessageSize] = {};

@@ -79,7 +79,7 @@ class MemoryOutput final : public OIIO::Filesystem::IOProxy {
     if (offset < 0) return 0;
     const auto at = static_cast<std::size_t>(offset);
     bytes_.resize(std::max(bytes_.size(), at + count));
-    std::memcpy(bytes_.data() + at, from, count);
+    if (count > 0) std::memcpy(bytes_.data() + at, from, count);  // of nothing, `from` may be null
     return count;
   }
   const std::vector<unsigned char>& bytes() const { return bytes_; }

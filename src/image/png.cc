@@ -63,7 +63,7 @@ struct Header {
   png_uint_32 file_row_bytes;  // of the widest pass
 };
 
-// Up to the first row, with every transformation set. False: the complaint says why.
+// All before the pixels. False: the complaint says why.
 bool ReadHeader(png_structp png, png_infop info, Header* header) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
   // The limits are checked by the caller, who names the size.
@@ -75,6 +75,12 @@ bool ReadHeader(png_structp png, png_infop info, Header* header) {
   header->file_row_bytes = static_cast<png_uint_32>(png_get_rowbytes(png, info));
   header->width = png_get_image_width(png, info);
   header->height = png_get_image_height(png, info);
+  return true;
+}
+
+// Sets every transformation. libpng makes room for its rows here: their length must have been checked before.
+bool Prepare(png_structp png, png_infop info, Header* header) {
+  if (setjmp(png_jmpbuf(png)) != 0) return false;
   png_set_expand(png);  // palettes, grey below 8 bits, tRNS
   if (std::endian::native == std::endian::little) png_set_swap(png);
   header->passes = png_set_interlace_handling(png);
@@ -96,6 +102,18 @@ bool ReadEnd(png_structp png) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
   png_read_end(png, nullptr);
   return true;
+}
+
+// libpng makes room for a text as long as its chunk says before it looks whether the file has one.
+bool HoldsChunksBeforePixels(std::span<const std::byte> bytes) {
+  for (std::size_t at = 8; at + 12 <= bytes.size();) {  // 12: length, type and checksum
+    std::size_t length = 0;
+    for (std::size_t i = 0; i < 4; ++i) length = length << 8 | std::to_integer<std::size_t>(bytes[at + i]);
+    if (std::memcmp(bytes.data() + at + 4, "IDAT", 4) == 0) return true;
+    if (length > bytes.size() - at - 12) return false;
+    at += 12 + length;
+  }
+  return true;  // libpng misses the pixels
 }
 
 // All chunks before the pixels, their texts unpacked.
@@ -342,6 +360,7 @@ void DecodePng(std::span<const std::byte> bytes, const std::string& name, int pi
   if (std::uint64_t(header.file_row_bytes) * header.height / kMostUnpacked > bytes.size()) {
     throw Error(ErrorCode::InvalidInput, "broken PNG: the file is cut off", name);
   }
+  if (!Prepare(reader.png, reader.info, &header)) throw fail();
 
   Image image;
   image.width = static_cast<int>(header.width);
@@ -374,6 +393,7 @@ void DecodePng(std::span<const std::byte> bytes, const std::string& name, int pi
 }
 
 std::map<std::string, std::string> ReadPngText(std::span<const std::byte> bytes, const std::string& name) {
+  if (!HoldsChunksBeforePixels(bytes)) throw Error(ErrorCode::InvalidInput, "broken PNG: the file is cut off", name);
   Reader reader;
   Cursor cursor{bytes.data(), bytes.size()};
   png_set_read_fn(reader.png, &cursor, ReadBytes);

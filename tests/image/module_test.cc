@@ -1,8 +1,10 @@
 // The OpenImageIO module: formats that facet itself does not read, agreement with facet's decoders, and its absence.
 #include <chrono>
-#include <thread>
 #include <cmath>
+#include <cstdint>
+#include <span>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "base/output_file.h"
@@ -10,17 +12,17 @@
 #include "facet/load.h"
 #include "image/codec.h"
 #include "image/convert.h"
-#include "image/oiio_loader.h"
 #include "image/image_test_util.h"
+#include "image/oiio_loader.h"
 
 namespace facet {
 namespace {
 
-#define FACET_NEEDS_MODULE()                          \
-  try {                                               \
-    RequireOiio();                                    \
-  } catch (const Error& error) {                      \
-    GTEST_SKIP() << error.what();                     \
+#define FACET_NEEDS_MODULE()      \
+  try {                           \
+    RequireOiio();                \
+  } catch (const Error& error) {  \
+    GTEST_SKIP() << error.what(); \
   }
 
 std::vector<std::filesystem::path> Files(const std::filesystem::path& folder, const char* extension) {
@@ -200,6 +202,45 @@ TEST(Module, UnknownContentIsAnError) {
   std::vector<std::byte> exr = noise;
   exr[0] = std::byte{0x76}, exr[1] = std::byte{0x2F}, exr[2] = std::byte{0x31}, exr[3] = std::byte{0x01};
   EXPECT_EQ(CodeOf([&] { DecodeImage(exr, "noise.exr"); }), ErrorCode::InvalidInput);
+}
+
+std::string Word(std::uint32_t number) { return {reinterpret_cast<const char*>(&number), sizeof number}; }
+
+std::string Attribute(const std::string& name, const std::string& type, const std::string& value) {
+  return name + '\0' + type + '\0' + Word(static_cast<std::uint32_t>(value.size())) + value;
+}
+
+// OpenEXR, which would take memory for what these headers say, never sees them: each is refused with or without the
+// module.
+TEST(Module, ExrHeadersAreCheckedBeforeOpenExrReadsThem) {
+  const auto refusal = [](const std::string& attributes, std::uint32_t flags, ErrorCode code) {
+    const std::string file = Word(20000630) + Word(2 | flags) + attributes + '\0';
+    std::string what;
+    EXPECT_EQ(CodeOf([&] { DecodeImage(std::as_bytes(std::span(file)), "a.exr"); }, &what), code) << what;
+    return what;
+  };
+  const std::string cut_off = "a.exr: broken EXR: its header is cut off";
+  const std::string beyond = std::string("secret\0opaque\0", 14) + Word(0x70000000);
+  const std::string preview = Attribute("preview", "preview", Word(20000) + Word(20000) + std::string(16, 'a'));
+  const std::string texts = Attribute("views", "stringvector", Word(4) + "left" + Word(0x70000000) + "right");
+  const std::string chunks = Attribute("chunkCount", "int", Word(0x10000000));
+  // Values of another length than their type has.
+  const std::string channels =
+      Attribute("channels", "chlist", "R" + std::string(17, '\0') + "G" + std::string(17, '\0'));
+  const std::string number = Attribute("number", "int", Word(1) + Word(2));
+  for (const std::string& attribute : {beyond, preview, texts, chunks, channels, number}) {
+    EXPECT_EQ(refusal(attribute, 0, ErrorCode::InvalidInput), cut_off);
+  }
+  const std::string wide = Attribute("dataWindow", "box2i", Word(0x80000000) + Word(0) + Word(0x7FFFFFFF) + Word(0));
+  EXPECT_NE(refusal(wide, 0, ErrorCode::OutOfMemory).find("4294967296 x 1"), std::string::npos);
+  const std::string empty = Attribute("dataWindow", "box2i", Word(5) + Word(0) + Word(4) + Word(0));
+  EXPECT_NE(refusal(empty, 0, ErrorCode::InvalidInput).find("empty"), std::string::npos);
+  const std::string tiles = Attribute("tiles", "tiledesc", Word(100000) + Word(100000) + '\0');
+  EXPECT_NE(refusal(tiles, 0, ErrorCode::OutOfMemory).find("100000 x 100000"), std::string::npos);
+  // The second part of several counts as well.
+  constexpr std::uint32_t kSeveralParts = 0x1000;
+  const std::string first = Attribute("owner", "string", "nobody") + '\0';
+  EXPECT_EQ(refusal(first + preview, kSeveralParts, ErrorCode::InvalidInput), cut_off);
 }
 
 }  // namespace

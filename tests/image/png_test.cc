@@ -1,6 +1,9 @@
 #include <png.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include <array>
+#include <fstream>
 #include <map>
 #include <string>
 #include <string_view>
@@ -147,8 +150,7 @@ TEST(Png, PalettesAndTransparentColours) {
   raw.palette_alpha = {128};
   const Image transparent = DecodeImage(Make(raw), "palette");
   EXPECT_EQ(transparent.channels, 4);
-  EXPECT_EQ(Numbers(transparent),
-            (std::vector<int>{1, 2, 3, 128, 4, 5, 6, 255, 7, 8, 9, 255, 1, 2, 3, 128}));
+  EXPECT_EQ(Numbers(transparent), (std::vector<int>{1, 2, 3, 128, 4, 5, 6, 255, 7, 8, 9, 255, 1, 2, 3, 128}));
 
   RawPng key;
   key.color_type = PNG_COLOR_TYPE_GRAY;
@@ -262,6 +264,31 @@ TEST(Png, TextBombsAreLeftPacked) {
   EXPECT_LT(ReadImageText(EncodePng(image, many), "picture").size(), 100u);
 }
 
+// Calls a function that gets no more than 256 MiB from the system. (The sanitizers have taken theirs already.)
+template <class Body>
+void WithLittleMemory(const Body& body) {
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_AS, &before), 0);
+  std::size_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  rlimit little = before;
+  little.rlim_cur = pages * static_cast<std::size_t>(getpagesize()) + (std::size_t{256} << 20);
+  ASSERT_EQ(setrlimit(RLIMIT_AS, &little), 0);
+  body();
+  EXPECT_EQ(setrlimit(RLIMIT_AS, &before), 0);
+}
+
+TEST(Png, TextsThatTheFileDoesNotHoldTakeNoMemory) {
+  // What libpng would go on with, where it does not get the memory, is no name of a chunk.
+  auto bytes = EncodePng(MakePattern(4, 4, 3, ChannelType::U8), {{"Title", "facet"}});
+  const std::string_view file(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  bytes[file.find("tEXt") - 4] = std::byte{0x68};  // 1.6 GiB
+  std::string what;
+  WithLittleMemory(
+      [&] { EXPECT_EQ(CodeOf([&] { ReadImageText(bytes, "small.png"); }, &what), ErrorCode::InvalidInput); });
+  EXPECT_EQ(what, "small.png: broken PNG: the file is cut off");
+}
+
 TEST(Png, RefusesBombsByTheirSize) {
   RawPng raw;
   raw.width = 8;
@@ -275,6 +302,24 @@ TEST(Png, RefusesBombsByTheirSize) {
   EXPECT_EQ(CodeOf([&] { DecodeImage(bytes, "bomb"); }, &what), ErrorCode::OutOfMemory);
   WithSize(bytes, 0, 32768);
   EXPECT_EQ(CodeOf([&] { DecodeImage(bytes, "empty"); }, &what), ErrorCode::InvalidInput);
+}
+
+// libpng reads chunks that stand before the header, and takes memory for a row before anybody asks for the row.
+TEST(Png, RefusesLongRowsBeforeTheyTakeMemory) {
+  RawPng raw;
+  raw.color_type = PNG_COLOR_TYPE_RGB_ALPHA;
+  raw.bit_depth = 16;
+  raw.rows = std::vector<unsigned char>(32);
+  auto bytes = Make(raw);
+  WithSize(bytes, 0x10000000, 1);
+  const std::string_view chunk("\0\0\0\0faCt\0\0\0\0", 12);  // its checksum is wrong, which is no matter
+  const auto* const begin = reinterpret_cast<const std::byte*>(chunk.data());
+  bytes.insert(bytes.begin() + 8, begin, begin + chunk.size());
+  std::string what;
+  ErrorCode code{};
+  WithLittleMemory([&] { code = CodeOf([&] { DecodeImage(bytes, "bomb"); }, &what); });  // a row has 2 GiB
+  EXPECT_EQ(code, ErrorCode::OutOfMemory) << what;
+  EXPECT_NE(what.find("268435456 x 1"), std::string::npos) << what;
 }
 
 }  // namespace

@@ -11,7 +11,9 @@ namespace facet::decoder_files {
 
 float PatternAt(int x, int y, int channel) {
   if ((x / 8 + y / 8) % 3 == 0) return float((x / 4 + y / 2 + channel) % 2);
-  const auto hash = static_cast<std::uint32_t>((x * 73856093) ^ (y * 19349663) ^ (channel * 83492791)) * 2654435769u;
+  const auto part = [](int number, std::uint32_t prime) { return static_cast<std::uint32_t>(number) * prime; };
+  const std::uint32_t hash =
+      (part(x, 73856093) ^ part(y, 19349663) ^ part(channel, 83492791)) * 2654435769u;  // wraps around
   if (y > kPatternHeight / 2) return float(hash >> 24) / 255.0f;
   return 0.5f + 0.5f * std::sin(float(x) * 0.21f + float(y) * 0.13f * float(channel + 1));
 }
