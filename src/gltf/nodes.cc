@@ -157,8 +157,8 @@ class NodeReader {
     part(shown, "its mesh is ignored",
          [&] { node.mesh = IndexAt(object, "mesh", scene_.meshes.size(), "meshes", place); });
     const bool draws = shown && node.mesh >= 0;
-    part(draws, "its skin is ignored",
-         [&] { node.skin = IndexAt(object, "skin", scene_.skins.size(), "skins", place); });
+    node.skin = draws ? IndexAt(object, "skin", scene_.skins.size(), "skins", place)
+                      : LenientIndex(object, "skin", scene_.skins.size(), "skins", place);
     part(draws, "its skin is ignored", [&] { AttachSkin(node, Place(place, "skin")); });
     part(draws, "its instances are ignored", [&] { ReadInstances(context_, reader_, object, node, place); });
     node.camera = LenientIndex(object, "camera", scene_.cameras.size(), "cameras", place);

@@ -114,6 +114,8 @@ TEST(CheckJUnit, CountsFailuresAndErrorsApart) {
             R"(">goldens.json: /entries/1: FLIP 0.5 &gt; 0.1 )"
             "\xef\xbf\xbd"
             R"(</failure>
+      <system-out>warning: texture &lt;3&gt;: broken
+      </system-out>
     </testcase>
     <testcase classname="goldens" name="error" time="0.00">
       <error type="error" message="no such file">goldens.json: /entries/2/scene: no such file</error>

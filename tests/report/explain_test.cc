@@ -192,7 +192,7 @@ void ExpectSameWithEverything(const facet::Manifest& manifest) {
     RenderRequest request = entry.request;
     request.settings.width = 64;
     request.settings.height = 64;
-    RenderInputs inputs = LoadInputs(manifest.path.parent_path() / entry.scene, request, {}, {manifest.path, {}});
+    RenderInputs inputs = LoadInputs(manifest.path.parent_path() / entry.scene, request, {}, {manifest.path, "/"});
     RenderStats lean, full;
     Film film;
     try {
