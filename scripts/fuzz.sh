@@ -2,7 +2,8 @@
 # Builds the fuzzers (tests/fuzz) and runs one after the other, with sanitizers, on inputs that grow out of small files.
 #   scripts/fuzz.sh                    an hour each
 # Options: --seconds N (each; default 3600), --only NAME (this fuzzer; may stand several times), --list (their names),
-# --jobs N (for building; default: one per core), --no-install (leave the system's packages alone).
+# --seed N (the same start for each run; default: another each time), --jobs N (for building; default: one per core),
+# --no-install (leave the system's packages alone).
 # What is new to a fuzzer is kept in build/fuzz/corpus, where the next run begins; an input that crashes, takes too long or
 # too much memory in build/fuzz/finds. Exit code 0 if nothing was found; the last lines are a summary.
 set -euo pipefail
@@ -10,14 +11,16 @@ set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 jobs=$(nproc)
 seconds=3600
+seed=0
 only=()
 list=
 install=yes
 while (( $# > 0 )); do
   case $1 in
-    -h | --help) sed -n '2,8s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; exit 0 ;;
+    -h | --help) sed -n '2,9s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; exit 0 ;;
     --seconds) seconds=${2:?--seconds needs a number}; shift ;;
     --only) only+=("${2:?--only needs the name of a fuzzer}"); shift ;;
+    --seed) seed=${2:?--seed needs a number}; shift ;;
     --jobs) jobs=${2:?--jobs needs a number}; shift ;;
     --list) list=yes ;;
     --no-install) install= ;;
@@ -69,7 +72,7 @@ for name in "${names[@]}"; do
   echo "== $name: $seconds s"
   before=$(find "$finds" -name "$name-*" | sort)
   status=0
-  "$build/fuzzers/$name" -max_total_time="$seconds" -max_len=65536 "${limits[@]}" -print_final_stats=1 \
+  "$build/fuzzers/$name" -max_total_time="$seconds" -seed="$seed" -max_len=65536 "${limits[@]}" -print_final_stats=1 \
     -artifact_prefix="$finds/$name-" "${inputs[@]}" >"$log" 2>&1 || status=$?
   executions=$(sed -n 's/^stat::number_of_executed_units: *//p' "$log" | tail -1)
   summary+=("$name: ${executions:-0} executions, $(find "$corpus" -type f | wc -l) inputs kept")
