@@ -31,9 +31,9 @@ struct CheckOptions {
   int threads = 0;        // 0: one per core. A bound on all entries together
   bool pictures = false;  // keep the pictures of entries that were not equal, for reports
   bool strict = false;    // entries with warnings fail
-  // Of every entry's scene. `memory_limit` is for all entries together, and for what is rendered. `root`: the folder that
-  // all files named by the manifest, and by its scenes, must lie in, those that an update writes too; empty: for the
-  // manifest its own folder, for each scene the scene's.
+  // Of every entry's scene. `memory_limit` is for all entries together, and for what is rendered. `root`: the folder
+  // that all files named by the manifest, and by its scenes, must lie in, those that an update writes too; empty: for
+  // the manifest its own folder, for each scene the scene's.
   LoadOptions load;
 };
 

@@ -34,8 +34,8 @@ struct DisplaySettings {
 Image Develop(const Film& film, const DisplaySettings& settings, ChannelType type = ChannelType::U8);
 
 // Writes by extension: .png (U8, U16), .exr and what else OpenImageIO writes. The file appears whole or not at all.
-// `text`: keyword and value pairs, which PNG and EXR hold. Throws Error: InvalidUsage (unknown extension), OutputFailed,
-// MissingModule.
+// `text`: keyword and value pairs, which PNG and EXR hold. Throws Error: InvalidUsage (unknown extension),
+// OutputFailed, MissingModule.
 void WriteImage(const std::filesystem::path& path, const Image& image,
                 const std::vector<std::array<std::string, 2>>& text = {});
 

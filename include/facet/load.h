@@ -40,16 +40,16 @@ struct LoadedScene {
 };
 
 struct LoadOptions {
-  // Bytes that loading may take, all in all: the files, their JSON while it is read, what the scene holds. 0: three quarters
-  // of what the machine, or the control group of the process, has. What needs more is refused before it is allocated,
-  // with Error(OutOfMemory).
+  // Bytes that loading may take, all in all: the files, their JSON while it is read, what the scene holds. 0: three
+  // quarters of what the machine, or the control group of the process, has. What needs more is refused before it is
+  // allocated, with Error(OutOfMemory).
   std::uint64_t memory_limit = 0;
-  // The folder that all files named by the scene must lie in; empty: the folder of the scene's own file. Links that lead
-  // out of it count as outside. "/" allows all.
+  // The folder that all files named by the scene must lie in; empty: the folder of the scene's own file. Links that
+  // lead out of it count as outside. "/" allows all.
   std::filesystem::path root;
   // Files of 64 MiB and more are mapped and not read: what is not used of them takes no time and no memory. They must
-  // stay as they are for as long as the scene is in use: a mapped file that is cut short meanwhile ends the process with
-  // SIGBUS. False: all files are read.
+  // stay as they are for as long as the scene is in use: a mapped file that is cut short meanwhile ends the process
+  // with SIGBUS. False: all files are read.
   bool map_files = true;
   // Load in spite of required extensions that facet does not have; each becomes a warning.
   bool ignore_required_extensions = false;
@@ -60,8 +60,8 @@ struct LoadOptions {
 // Throws Error: NotFound, InvalidInput, Unsupported (a required extension, by name), OutOfMemory.
 LoadedScene LoadGltf(const std::filesystem::path& path, const LoadOptions& options = {});
 
-// Loads an image of any format that facet or OpenImageIO reads. `memory_limit`: as in LoadOptions. Throws Error: NotFound,
-// InvalidInput, OutOfMemory, MissingModule.
+// Loads an image of any format that facet or OpenImageIO reads. `memory_limit`: as in LoadOptions. Throws Error:
+// NotFound, InvalidInput, OutOfMemory, MissingModule.
 Image LoadImage(const std::filesystem::path& path, std::uint64_t memory_limit = 0);
 
 // A picture for EnvironmentSettings::source that is decoded and prepared only where the folder `cache` does not hold

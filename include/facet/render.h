@@ -34,7 +34,7 @@ struct OrbitCamera {
   // None, or not positive: the distance that shows the whole scene from every side, and at every moment of the
   // animation, so that turntables neither swell nor shrink.
   std::optional<double> radius;
-  std::optional<glm::dvec3> target;              // none: the centre of the bounds (without a radius, of all those moments)
+  std::optional<glm::dvec3> target;  // none: the centre of the bounds (without a radius, of all those moments)
   std::optional<double> yfov;                    // radians; 45 degrees if none
 };
 
@@ -127,9 +127,10 @@ struct RenderSettings {
   IrradianceMethod irradiance = IrradianceMethod::Convolution;
   TangentSource tangents = TangentSource::File;
   int tile_size = 32;      // 8, 16, 32 or 64: never changes the picture
-  // Bytes that the frame may take with all that grows with the scene or the picture: the scene itself, posed copies, lists
-  // of triangles, textures and what is decoded for them, the environment, the film. What needs more is refused before it
-  // is allocated, with Error(OutOfMemory). 0: three quarters of what the machine, or the process's control group, has.
+  // Bytes that the frame may take with all that grows with the scene or the picture: the scene itself, posed copies,
+  // lists of triangles, textures and what is decoded for them, the environment, the film. What needs more is refused
+  // before it is allocated, with Error(OutOfMemory). 0: three quarters of what the machine, or the process's control
+  // group, has.
   std::uint64_t memory_limit = 0;
   int scene = -1;          // -1: the default one
   int animation = -1;      // -1: rest pose
@@ -185,8 +186,8 @@ struct RenderStats {
   int environment_size = 0;              // texels along its sharpest map
   std::vector<TextureStats> textures;
   std::uint64_t non_finite_fragments = 0;  // replaced by black, see docs/conventions.md
-  FreeCamera camera;                     // in use, whatever chose it; its lens is fitted to the picture
-  double camera_target_distance = 1.0;   // of the point that an AutoCamera or OrbitCamera looks at; 1 of others
+  FreeCamera camera;                       // in use, whatever chose it; its lens is fitted to the picture
+  double camera_target_distance = 1.0;     // of the point that an AutoCamera or OrbitCamera looks at; 1 of others
   std::string target;                    // instruction set: SCALAR, SSE4, AVX2 or AVX3
   int threads = 0;
   std::vector<std::string> left_out;     // what the frame did without, one line each: "WHAT: WHY"

@@ -59,8 +59,8 @@ struct Material {
   std::string name;
   glm::vec4 base_color_factor{1.0f};  // linear, straight alpha, [0, 1]
   TextureRef base_color_texture;      // sRGB
-  float metallic_factor = 1.0f;           // [0, 1]
-  float roughness_factor = 1.0f;          // perceptual roughness, [0, 1]
+  float metallic_factor = 1.0f;       // [0, 1]
+  float roughness_factor = 1.0f;      // perceptual roughness, [0, 1]
   TextureRef metallic_roughness_texture;  // G roughness, B metalness
   TextureRef normal_texture;              // tangent space, +Y up
   float normal_scale = 1.0f;              // of any sign
@@ -70,7 +70,7 @@ struct Material {
   TextureRef emissive_texture;      // sRGB
   float emissive_strength = 1.0f;   // KHR_materials_emissive_strength, 0 or more
   AlphaMode alpha_mode = AlphaMode::Opaque;
-  float alpha_cutoff = 0.5f;        // 0 or more
+  float alpha_cutoff = 0.5f;  // 0 or more
   bool double_sided = false;
   bool unlit = false;  // KHR_materials_unlit
 };
@@ -97,8 +97,8 @@ struct Primitive {
   std::vector<glm::vec4> colors;                   // linear RGBA, straight alpha
   std::vector<std::vector<glm::u16vec4>> joints;   // JOINTS_n: indices into Skin::joints
   std::vector<std::vector<glm::vec4>> weights;     // WEIGHTS_n
-  // Every value < positions.size(); a multiple of 3 for Triangles, of 2 for Lines. Empty: 0, 1, 2 ... as far as they make
-  // whole triangles or lines.
+  // Every value < positions.size(); a multiple of 3 for Triangles, of 2 for Lines. Empty: 0, 1, 2 ... as far as they
+  // make whole triangles or lines.
   std::vector<std::uint32_t> indices;
   std::vector<MorphTarget> targets;
   int material = -1;                   // -1: glTF's default material
@@ -135,11 +135,11 @@ enum class LightType : std::uint8_t { Directional, Point, Spot };
 struct Light {
   std::string name;
   LightType type = LightType::Point;
-  glm::vec3 color{1.0f};   // linear, 0 or more
-  float intensity = 1.0f;  // lux for directional, candela for point and spot; 0 or more
+  glm::vec3 color{1.0f};                                 // linear, 0 or more
+  float intensity = 1.0f;                                // lux for directional, candela for point and spot; 0 or more
   float range = std::numeric_limits<float>::infinity();  // positive; infinity: unlimited
-  float inner_cone_angle = 0.0f;           // from the axis, 0 to the outer one
-  float outer_cone_angle = 0.7853981634f;  // 0 to pi
+  float inner_cone_angle = 0.0f;                         // from the axis, 0 to the outer one
+  float outer_cone_angle = 0.7853981634f;                // 0 to pi
 };
 
 struct Transform {
@@ -188,8 +188,8 @@ struct SceneRoots {
   std::vector<int> nodes;  // with all that is below them. One that has a parent stands as if it had none
 };
 
-// Every index in it is valid or -1, every parameter finite and in the range that stands beside it, and the node hierarchy
-// is a forest: loaders guarantee it, ValidateScene checks it.
+// Every index in it is valid or -1, every parameter finite and in the range that stands beside it, and the node
+// hierarchy is a forest: loaders guarantee it, ValidateScene checks it.
 struct Scene {
   std::vector<SceneImage> images;
   std::vector<Texture> textures;
@@ -205,8 +205,8 @@ struct Scene {
   std::vector<std::string> variants;  // KHR_materials_variants
 };
 
-// Throws Error(InvalidInput) naming the first index, size, number or cycle that breaks the rules above. Render() and all
-// that draws or measures a scene call it.
+// Throws Error(InvalidInput) naming the first index, size, number or cycle that breaks the rules above. Render() and
+// all that draws or measures a scene call it.
 void ValidateScene(const Scene& scene);
 
 }  // namespace facet

@@ -107,7 +107,8 @@ Bytes ReadFile(const fs::path& path, const ReadOptions& options, std::uintmax_t*
     throw Error(ErrorCode::NotFound, why, name, hint);
   };
   // Not blocking: nobody may ever write to a pipe that data names.
-  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY | (options.regular_only ? O_NONBLOCK : 0)));
+  const Descriptor file(
+      ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY | (options.regular_only ? O_NONBLOCK : 0)));
   if (file.get() < 0) {
     if (errno == ENOENT || errno == ENOTDIR) fail("no such file", "check the path");
     if (errno == EACCES) fail("cannot be opened: Permission denied", "check the permissions");
@@ -144,10 +145,10 @@ fs::path DataPath(const fs::path& named_by, const fs::path& name, const fs::path
   const fs::path folder = named_by.has_parent_path() ? named_by.parent_path() : fs::path(".");
   const fs::path path = named_by.parent_path() / name;
   std::error_code ignored;
-  const bool inside = !root.empty() ? LiesIn(path, root)
-                                    : !name.is_absolute() &&
-                                          (LiesIn(path, folder) ||
-                                           LiesIn(path, fs::canonical(named_by, ignored).parent_path()));
+  const bool inside = !root.empty()
+                          ? LiesIn(path, root)
+                          : !name.is_absolute() &&
+                                (LiesIn(path, folder) || LiesIn(path, fs::canonical(named_by, ignored).parent_path()));
   if (inside) return path;
   throw Error(ErrorCode::InvalidInput,
               Quoted(name.string()) + " lies outside of the folder " + Quoted((root.empty() ? folder : root).string()),

@@ -38,8 +38,8 @@ MutableBytes AllocateBytes(std::size_t size);
 struct ReadOptions {
   // Only regular files: for names that data gives, which may be those of pipes and devices.
   bool regular_only = false;
-  // Maps large files instead of reading them: what is not used of them is not read, and there is no copy. They must stay
-  // as they are for as long as the bytes are in use: a mapped file that is cut short ends the process (SIGBUS).
+  // Maps large files instead of reading them: what is not used of them is not read, and there is no copy. They must
+  // stay as they are for as long as the bytes are in use: a mapped file that is cut short ends the process (SIGBUS).
   bool map = false;
   std::size_t most = std::numeric_limits<std::size_t>::max();  // bytes from the start; what follows is left unread
 };
@@ -52,10 +52,10 @@ inline constexpr const char* kFilesCharge = "files";
 // Throws Error: NotFound (no such file, a folder, no permission, not a regular file), OutOfMemory.
 Bytes ReadFile(const std::filesystem::path& path, const ReadOptions& options = {}, std::uintmax_t* file_size = nullptr);
 
-// The path of a file that `named_by`, another file, names: relative to its folder. It must lie in `root`, or, where that
-// is empty, in the folder of `named_by`, also when links are followed. (A file that is itself a link into another folder
-// names files of that folder too.) Names from data are opened in no other way.
-// Throws Error(InvalidInput) for a path that leads out of that folder.
+// The path of a file that `named_by`, another file, names: relative to its folder. It must lie in `root`, or, where
+// that is empty, in the folder of `named_by`, also when links are followed. (A file that is itself a link into another
+// folder names files of that folder too.) Names from data are opened in no other way. Throws Error(InvalidInput) for a
+// path that leads out of that folder.
 std::filesystem::path DataPath(const std::filesystem::path& named_by, const std::filesystem::path& name,
                                const std::filesystem::path& root = {});
 

@@ -13,8 +13,9 @@ bool IsJsonDeeperThan(std::string_view text, int levels);
 // What facet's own files have at most, and more than anybody's glTF files need.
 inline constexpr int kMaxJsonDepth = 128;
 
-// Bytes that nlohmann::json takes for the values of a text, while it parses it and after, at most. nlohmann::ordered_json
-// takes up to twice as many: its objects are lists, and one that grows is copied with all that is in it. Takes any text.
+// Bytes that nlohmann::json takes for the values of a text, while it parses it and after, at most.
+// nlohmann::ordered_json takes up to twice as many: its objects are lists, and one that grows is copied with all that
+// is in it. Takes any text.
 std::uint64_t JsonMemory(std::string_view text);
 
 }  // namespace facet

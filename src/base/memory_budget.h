@@ -1,5 +1,5 @@
-// What a piece of work may take in memory. Whatever grows with the input is charged here before it is allocated, so that
-// a file of a few bytes cannot ask for more than the limit: it is refused with the amount that it asks for.
+// What a piece of work may take in memory. Whatever grows with the input is charged here before it is allocated, so
+// that a file of a few bytes cannot ask for more than the limit: it is refused with the amount that it asks for.
 #pragma once
 
 #include <cstdint>
@@ -35,8 +35,8 @@ class MemoryBudget {
   std::uint64_t limit() const { return limit_; }
   std::uint64_t Left() const;
 
-  // What the current thread works under; ParallelFor passes it on to its threads. Outside of all scopes nothing is added
-  // up: each request by itself must be within DefaultMemoryLimit().
+  // What the current thread works under; ParallelFor passes it on to its threads. Outside of all scopes nothing is
+  // added up: each request by itself must be within DefaultMemoryLimit().
   static MemoryBudget& Current();
 
   // Makes a budget that of the current thread for as long as the scope lives.

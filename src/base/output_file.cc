@@ -128,7 +128,8 @@ std::pair<fs::path, Kind> Follow(fs::path path) {
     path = next.is_absolute() ? next : path.parent_path() / next;
   }
   const fs::file_status status = fs::symlink_status(path, ignored);
-  const bool plain = !fs::exists(status) || fs::is_regular_file(status) || fs::is_directory(status) || fs::is_symlink(status);
+  const bool plain =
+      !fs::exists(status) || fs::is_regular_file(status) || fs::is_directory(status) || fs::is_symlink(status);
   return {path, plain ? Kind::Plain : Kind::Special};
 }
 
@@ -184,7 +185,8 @@ void OutputFile::Open(const fs::path& target) {
     struct stat status {};
     if (::fstat(descriptor_, &status) != 0 || status.st_nlink > 0) {
       struct stat before {};
-      if (::stat(target.c_str(), &before) == 0 && S_ISREG(before.st_mode)) ::fchmod(descriptor_, before.st_mode & 0777u);
+      if (::stat(target.c_str(), &before) == 0 && S_ISREG(before.st_mode))
+        ::fchmod(descriptor_, before.st_mode & 0777u);
       return;
     }
     ::close(std::exchange(descriptor_, -1));

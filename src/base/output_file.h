@@ -18,17 +18,17 @@
 namespace facet {
 
 // A file that is being written. Its bytes go to a temporary file in the same folder, whose name nobody can foretell and
-// which is made anew or not at all; Commit() brings it to the disk and gives it the name that was asked for. Until then,
-// and when anything fails, what stood under that name stays as it was. A pipe or a device is written directly, because
-// it has no state to keep whole. Not thread-safe.
+// which is made anew or not at all; Commit() brings it to the disk and gives it the name that was asked for. Until
+// then, and when anything fails, what stood under that name stays as it was. A pipe or a device is written directly,
+// because it has no state to keep whole. Not thread-safe.
 //
 // Temporary files are locked for as long as they are written. One that is not locked belongs to a process that was
 // killed: whoever writes to the same folder next removes it.
 class OutputFile {
  public:
-  // What becomes of a symbolic link under the name. Follow: the file that it leads to is written, as a shell's redirection
-  // does, and the link stays; for names that users give. Refuse: links, pipes and devices are an error; for names that
-  // data or facet itself gives.
+  // What becomes of a symbolic link under the name. Follow: the file that it leads to is written, as a shell's
+  // redirection does, and the link stays; for names that users give. Refuse: links, pipes and devices are an error; for
+  // names that data or facet itself gives.
   enum class Links : std::uint8_t { Follow, Refuse };
 
   // Throws Error(OutputFailed), like all that follows; messages name `path`.
@@ -49,8 +49,8 @@ class OutputFile {
   [[noreturn]] void Fail(int error) const;
   void Open(const std::filesystem::path& target);
 
-  std::string name_;               // what messages call it
-  std::filesystem::path target_;   // `path` with links followed
+  std::string name_;                 // what messages call it
+  std::filesystem::path target_;     // `path` with links followed
   std::filesystem::path temporary_;  // empty: it is written directly
   std::optional<UnfinishedFile> unfinished_;
   int descriptor_ = -1;

@@ -144,9 +144,10 @@ void BinChunk(const TileGrid& grid, TriangleChunk& chunk) {
   for (std::uint32_t i = 0; count < place.size(); ++i) put(i);  // those that touch no tile
   chunk.records.swap(ordered);
   chunk.begin.push_back(static_cast<std::uint32_t>(entries.size()));
-  MemoryBudget::Current().Charge(chunk.records.size() * sizeof(TriangleRecord) +
-                                     (chunk.entries.size() + chunk.tiles.size() + chunk.begin.size()) * sizeof(std::uint32_t),
-                                 1, kTileListsCharge);
+  MemoryBudget::Current().Charge(
+      chunk.records.size() * sizeof(TriangleRecord) +
+          (chunk.entries.size() + chunk.tiles.size() + chunk.begin.size()) * sizeof(std::uint32_t),
+      1, kTileListsCharge);
 }
 
 }  // namespace facet

@@ -28,9 +28,10 @@ void PrintWarning(std::string_view text) { PrintLine("facet: warning: ", text); 
 void PrintWarnings(const std::vector<std::string>& warnings, bool strict, const std::string& where) {
   for (const std::string& warning : warnings) PrintWarning(warning);
   if (!strict || warnings.empty()) return;
-  throw Error(ErrorCode::InvalidInput,
-              warnings.size() == 1 ? "there is a warning" : "there are " + std::to_string(warnings.size()) + " warnings",
-              where, "without --strict it would be used all the same");
+  throw Error(
+      ErrorCode::InvalidInput,
+      warnings.size() == 1 ? "there is a warning" : "there are " + std::to_string(warnings.size()) + " warnings", where,
+      "without --strict it would be used all the same");
 }
 
 void PrintOutput(std::string_view text) {

@@ -12,8 +12,8 @@ void PrintError(std::string_view text);
 void PrintNote(std::string_view text);
 void PrintWarning(std::string_view text);
 
-// Prints warnings, one line each. `strict`: throws Error(InvalidInput) then where there were some; `where`: what they are
-// about.
+// Prints warnings, one line each. `strict`: throws Error(InvalidInput) then where there were some; `where`: what they
+// are about.
 void PrintWarnings(const std::vector<std::string>& warnings, bool strict, const std::string& where);
 
 // Writes to standard output and flushes. Throws Error(OutputFailed) when that is closed or full.

@@ -46,7 +46,9 @@ std::string Table(const DiffOptions& options, const ImageDifference& d, const st
   const std::size_t pixels = d.flip_map.PixelCount();
   std::string text = Printable(options.a.string()) + " and " + Printable(options.b.string()) + ": " +
                      std::to_string(d.width) + "x" + std::to_string(d.height) + ", " +
-                     (d.equal ? "equal" : broken.empty() ? "within the thresholds" : "different") +
+                     (d.equal          ? "equal"
+                      : broken.empty() ? "within the thresholds"
+                                       : "different") +
                      (d.linear ? ", linear light" : "") + "\n";
   if (!d.equal) {
     text += row("largest difference",

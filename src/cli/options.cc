@@ -73,19 +73,20 @@ void AddThreads(CLI::App& app, const std::string& group, int& threads) {
 void AddLoading(CLI::App& app, const std::string& group, LoadOptions& load, bool& strict) {
   AddFlag(app, group, "--strict", "Warnings are failures", strict);
   AddFlag(app, group, "--ignore-required-extensions",
-          "Go on in spite of extensions that the file\nrequires and facet does not have", load.ignore_required_extensions);
+          "Go on in spite of extensions that the file\nrequires and facet does not have",
+          load.ignore_required_extensions);
   Add(app, group, "--root", "DIR",
       "Where files that the input names must lie; / for\nanywhere [the folder of the file that names them]",
       [&](const std::string& text) {
         std::error_code ignored;
         if (!std::filesystem::is_directory(text, ignored)) {
-          throw Error(ErrorCode::InvalidUsage, "there is no folder " + Quoted(text), "--root", "give one that is there");
+          throw Error(ErrorCode::InvalidUsage, "there is no folder " + Quoted(text), "--root",
+                      "give one that is there");
         }
         load.root = text;
       });
   app.add_flag_callback(
-         "--no-mmap", [&] { load.map_files = false; },
-         "Read large files whole: they may change while\nthey are in use")
+         "--no-mmap", [&] { load.map_files = false; }, "Read large files whole: they may change while\nthey are in use")
       ->group(group)
       ->disable_flag_override();
 }

@@ -5,8 +5,8 @@
 
 namespace facet::cli {
 
-// Ctrl-C and other ways of being ended leave no unfinished file behind. Writing beyond a limit on the size of files is an
-// error as any other, and a mapped input file that another program cuts short ends this one with one line.
+// Ctrl-C and other ways of being ended leave no unfinished file behind. Writing beyond a limit on the size of files is
+// an error as any other, and a mapped input file that another program cuts short ends this one with one line.
 void HandleSignals();
 
 // A second line behind the library's own accounts: what libraries allocate that it does not know of fails too, with

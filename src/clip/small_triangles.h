@@ -19,8 +19,8 @@ SampleCoverage CoverageOf(const std::int32_t (&x_fx8)[3], const std::int32_t (&y
 
 // The largest extent of a small triangle: twice its area fits 32 bits.
 inline constexpr std::int32_t kSmallTriangle_fx8 = (1 << 15) - 1;
-// Its depth is a float wherever a block begins that it touches: two of its depths differ by 2 kMostDistance at most, and
-// a rate, of two such differences, is largest where the area is 1 fx8^2.
+// Its depth is a float wherever a block begins that it touches: two of its depths differ by 2 kMostDistance at most,
+// and a rate, of two such differences, is largest where the area is 1 fx8^2.
 static_assert(kMostDistance * (1.0 + 2.0 * (4.0 * kSmallTriangle_fx8 * kSubpixelScale) *
                                          (kSmallTriangle_fx8 / double{kSubpixelScale} + kBlockSize)) <
               double{std::numeric_limits<float>::max()});

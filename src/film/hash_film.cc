@@ -18,8 +18,8 @@ void CheckFilm(const Film& film) {
   const bool sized = film.width >= 0 && film.height >= 0;
   if (sized && film.pixels.size() == std::size_t(film.width) * std::size_t(film.height)) return;
   throw Error(ErrorCode::InvalidUsage,
-              "it has " + std::to_string(film.pixels.size()) + " pixels and says that it is " + std::to_string(film.width) +
-                  " x " + std::to_string(film.height),
+              "it has " + std::to_string(film.pixels.size()) + " pixels and says that it is " +
+                  std::to_string(film.width) + " x " + std::to_string(film.height),
               "film");
 }
 

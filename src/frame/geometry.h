@@ -79,7 +79,12 @@ struct TriangleRecord {
   // Of a triangle within a CoverageSquare, the samples that it covers: bit ((y << stride_bits) + x) * samples + s is
   // sample s of pixel (x, y) from FirstPixel() of its least x and y on. 0: not known.
   std::uint32_t covered;
-  TriangleRecord() : primitive(0), kind(RecordKind::Triangle), back_facing(false), clipped(false), covered(0) {}  // NOLINT: rest unset
+  TriangleRecord()
+      : primitive(0),
+        kind(RecordKind::Triangle),
+        back_facing(false),
+        clipped(false),
+        covered(0) {}  // NOLINT: rest unset
 };
 
 // Of three coordinates. (Pairs, and not lists of three, become instructions without a branch.)

@@ -194,8 +194,7 @@ void AccessorReader::ReadSparse(const Json& sparse, std::size_t element_size, co
   const Json &indices = RequireObject(sparse, "indices", place), &values = RequireObject(sparse, "values", place);
   const std::size_t views = context_.document.Count("bufferViews");
   RequireSize(indices, "componentType", indices_place);
-  const auto type =
-      static_cast<ComponentType>(*OneOfAt(indices, "componentType", {5121, 5123, 5125}, indices_place));
+  const auto type = static_cast<ComponentType>(*OneOfAt(indices, "componentType", {5121, 5123, 5125}, indices_place));
   const std::size_t index_size = SizeOfComponent(type);
   const Bytes index_bytes =
       Run(RequireIndex(indices, "bufferView", views, "bufferViews", indices_place),
@@ -266,7 +265,8 @@ void AccessorReader::ReadFloats(const AccessorView& view, Range range, int compo
     }
   }
   ForEachReplaced(view, range, [&](std::size_t i, const std::byte* value) {
-    ConvertAny(view.type, value, 0, 1, read, components, view.normalized, out + i * static_cast<std::size_t>(components));
+    ConvertAny(view.type, value, 0, 1, read, components, view.normalized,
+               out + i * static_cast<std::size_t>(components));
   });
   if (view.type != ComponentType::F32) return;
   const std::size_t total = range.count * static_cast<std::size_t>(components);

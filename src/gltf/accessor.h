@@ -53,8 +53,7 @@ struct Range {
 
 class AccessorReader {
  public:
-  AccessorReader(Context& context, BufferStore& buffers)
-      : context_(context), buffers_(buffers) {
+  AccessorReader(Context& context, BufferStore& buffers) : context_(context), buffers_(buffers) {
     const std::size_t count = context.document.Count("accessors");
     context.Charge(count, sizeof(Known), Place(context.place, "accessors"));
     accessors_.resize(count);

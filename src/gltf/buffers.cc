@@ -30,8 +30,7 @@ std::size_t Available(std::size_t size, std::size_t offset, std::size_t length) 
 
 }  // namespace
 
-BufferStore::BufferStore(Context& context, std::optional<Bytes> bin)
-    : context_(context), bin_(std::move(bin)) {
+BufferStore::BufferStore(Context& context, std::optional<Bytes> bin) : context_(context), bin_(std::move(bin)) {
   const Place buffers_place(context.place, "buffers"), views_place(context.place, "bufferViews");
   context.Charge(context.document.Count("buffers"), sizeof(Buffer), buffers_place);
   buffers_.resize(context.document.Count("buffers"));

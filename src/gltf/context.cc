@@ -36,8 +36,9 @@ void Context::GiveBack(std::size_t charged_before) {
 
 const ExtensionUse* Context::FindExtension(std::string_view name) const {
   const auto& uses = report.extensions;  // sorted
-  const auto found = std::lower_bound(uses.begin(), uses.end(), name,
-                                      [](const ExtensionUse& use, std::string_view wanted) { return use.name < wanted; });
+  const auto found =
+      std::lower_bound(uses.begin(), uses.end(), name,
+                       [](const ExtensionUse& use, std::string_view wanted) { return use.name < wanted; });
   return found != uses.end() && found->name == name ? &*found : nullptr;
 }
 

@@ -44,8 +44,8 @@ struct Context {
     }
   }
 
-  // The same for what the picture does not show in any case. In a file with very many failures the rest is not tried any
-  // more, because a million errors take too long.
+  // The same for what the picture does not show in any case. In a file with very many failures the rest is not tried
+  // any more, because a million errors take too long.
   template <class Read>
   bool TryUnused(const Place& where, const char* consequence, const Read& read) {
     constexpr std::size_t kMostFailures = 10000;

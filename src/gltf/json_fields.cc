@@ -29,10 +29,9 @@ constexpr Kind kArray = {[](const Json& value) { return value.is_array(); }, "an
 constexpr Kind kNumber = {[](const Json& value) { return value.is_number(); }, "a number"};
 constexpr Kind kString = {[](const Json& value) { return value.is_string(); }, "a string"};
 constexpr Kind kBool = {[](const Json& value) { return value.is_boolean(); }, "true or false"};
-constexpr Kind kSize = {[](const Json& value) {
-                          return value.is_number_unsigned() && value.get<std::uint64_t>() < kMaxInteger;
-                        },
-                        "a sensible non-negative integer"};
+constexpr Kind kSize = {
+    [](const Json& value) { return value.is_number_unsigned() && value.get<std::uint64_t>() < kMaxInteger; },
+    "a sensible non-negative integer"};
 
 // A member of that kind; null when absent.
 const Json* Strict(const Kind& kind, const Json& object, const char* key, const Place& place) {
@@ -217,7 +216,8 @@ std::vector<float> LenientFloats(const Json& object, const char* key, const Plac
   const Json* array = LenientArray(object, key, place);
   if (!array) return {};
   std::vector<float> floats;
-  for (const double number : LenientNumbers(object, key, array->size(), place)) floats.push_back(RoundToFiniteFloat(number));
+  for (const double number : LenientNumbers(object, key, array->size(), place))
+    floats.push_back(RoundToFiniteFloat(number));
   return floats;
 }
 

@@ -16,7 +16,8 @@ using Json = nlohmann::json;
 // - text is UTF-8.
 // Repairs, with a warning: null; bytes that are not UTF-8, which become U+FFFD; numbers beyond the range of double,
 // which become the largest. Refuses nesting deeper than kMaxJsonDepth before any parser recurses into it.
-// The caller has charged JsonMemory() (base/json_bounds.h); copies of the text are charged here. Throws Error (InvalidInput, OutOfMemory).
+// The caller has charged JsonMemory() (base/json_bounds.h); copies of the text are charged here. Throws Error
+// (InvalidInput, OutOfMemory).
 Json ParseJson(std::string_view text, const Place& place);
 
 }  // namespace facet::gltf

@@ -31,7 +31,8 @@ class MaterialReader {
     }
     out.normal_texture = Ref(object_, "normalTexture", place_);
     if (const Json* info = LenientObject(object_, "normalTexture", place_)) {
-      out.normal_scale = RoundToFiniteFloat(LenientNumber(*info, "scale", Place(place_, "normalTexture")).value_or(1.0));
+      out.normal_scale =
+          RoundToFiniteFloat(LenientNumber(*info, "scale", Place(place_, "normalTexture")).value_or(1.0));
     }
     out.occlusion_texture = Ref(object_, "occlusionTexture", place_);
     if (const Json* info = LenientObject(object_, "occlusionTexture", place_)) {

@@ -262,9 +262,9 @@ void MarkMesh(const Context& context, const Json& node, const Place& place, Show
   MeshUse& use = shown.meshes[std::size_t(mesh)];
   const Place meshes_place(context.place, "meshes");
   if (!use.shown) {  // the mesh's own weights hold where a node has none
-    MarkTargets(LenientFloats(context.Object("meshes", std::size_t(mesh)), "weights",
-                              Place(meshes_place, std::size_t(mesh))),
-                use);
+    MarkTargets(
+        LenientFloats(context.Object("meshes", std::size_t(mesh)), "weights", Place(meshes_place, std::size_t(mesh))),
+        use);
   }
   MarkTargets(LenientFloats(node, "weights", place), use);
   use.shown = true;

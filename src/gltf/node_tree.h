@@ -12,8 +12,9 @@ namespace facet::gltf {
 // What the nodes of the default scene make of a mesh.
 struct MeshUse {
   bool shown = false;
-  bool skinned = false;              // by one of them
-  std::vector<bool> moving_targets;  // morph targets that it or one of them gives a weight other than 0; others may lack
+  bool skinned = false;  // by one of them
+  std::vector<bool>
+      moving_targets;  // morph targets that it or one of them gives a weight other than 0; others may lack
 };
 
 // What the picture shows that is made without further choices: the visible nodes of the default scene, at rest.

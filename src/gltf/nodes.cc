@@ -95,9 +95,9 @@ constexpr std::size_t kNoSkin = std::numeric_limits<std::size_t>::max();
 // Of a mesh whose nodes have skins.
 struct SkinnedMesh {
   bool has_joints = false;
-  int largest = -1;                         // joint that has a weight
-  std::size_t largest_in = 0;               // a primitive that uses it
-  std::size_t fewest = kNoSkin;             // joints of the skins
+  int largest = -1;              // joint that has a weight
+  std::size_t largest_in = 0;    // a primitive that uses it
+  std::size_t fewest = kNoSkin;  // joints of the skins
 };
 
 template <class Visit>

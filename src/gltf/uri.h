@@ -21,8 +21,8 @@ std::optional<Bytes> DecodeDataUri(std::string_view uri);
 // Whether it can be seen without decoding that a data URI is malformed.
 bool IsMalformedDataUri(std::string_view uri);
 
-// Standard or URL-safe alphabet, padding optional, blanks and line breaks ignored; nothing when it is malformed. Charges
-// and throws likewise.
+// Standard or URL-safe alphabet, padding optional, blanks and line breaks ignored; nothing when it is malformed.
+// Charges and throws likewise.
 std::optional<Bytes> DecodeBase64(std::string_view text);
 
 // True for "http://...", "file:...": what names a scheme. A single letter is no scheme ("C:" is a Windows drive).

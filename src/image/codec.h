@@ -1,5 +1,5 @@
-// Images as files: decoding from memory, encoding to memory. PNG, JPEG, WebP and Radiance HDR are read here; every other
-// format goes through the OpenImageIO module (see oiio_loader.h), which is opened when the first such file comes.
+// Images as files: decoding from memory, encoding to memory. PNG, JPEG, WebP and Radiance HDR are read here; every
+// other format goes through the OpenImageIO module (see oiio_loader.h), which is opened when the first such file comes.
 #pragma once
 
 #include <array>
@@ -21,18 +21,17 @@ namespace facet {
 inline constexpr int kMaxImageSide = 32768;
 inline constexpr std::size_t kMaxImagePixels = std::size_t(1) << 28;
 
-// What may be decoded. Gltf: what glTF 2.0 and its extensions allow, PNG, JPEG and WebP; nothing else reaches OpenImageIO
-// from a file that anybody may have made.
+// What may be decoded. Gltf: what glTF 2.0 and its extensions allow, PNG, JPEG and WebP; nothing else reaches
+// OpenImageIO from a file that anybody may have made.
 enum class ImageFormats : std::uint8_t { Any, Gltf };
 
 // Decodes a whole file of any format that facet or OpenImageIO reads; the format is told by content, never by name.
 // Channels and depth are the file's (a palette becomes RGB or RGBA, grey of 1, 2 and 4 bits becomes 8, PNG of 16 bits
-// stays U16, CMYK becomes RGB); alpha is straight. PNG, JPEG and WebP are Encoding::Srgb and HDR is Encoding::Linear: as
-// glTF 2.0 demands, gamma chunks, colour profiles and orientation tags are ignored.
-// `name` is what messages call the image. What is needed while decoding is charged to the current memory budget.
-// Thread-safe.
-// Throws Error: InvalidInput (broken, cut off, or of no format that is allowed), OutOfMemory (larger than the limits above
-// or the budget), MissingModule (the format needs OpenImageIO and its module is not there).
+// stays U16, CMYK becomes RGB); alpha is straight. PNG, JPEG and WebP are Encoding::Srgb and HDR is Encoding::Linear:
+// as glTF 2.0 demands, gamma chunks, colour profiles and orientation tags are ignored. `name` is what messages call the
+// image. What is needed while decoding is charged to the current memory budget. Thread-safe. Throws Error: InvalidInput
+// (broken, cut off, or of no format that is allowed), OutOfMemory (larger than the limits above or the budget),
+// MissingModule (the format needs OpenImageIO and its module is not there).
 Image DecodeImage(std::span<const std::byte> bytes, const std::string& name, ImageFormats formats = ImageFormats::Any);
 
 // The same in pieces of some rows. PNG (unless it is interlaced) and JPEG never have more than one of them in memory.
@@ -48,12 +47,12 @@ std::vector<std::byte> EncodePng(const Image& image, const ImageText& text = {})
 // The same with a text that takes time to make: it is made while another thread compresses the pixels.
 std::vector<std::byte> EncodePng(const Image& image, const std::function<ImageText()>& make_text);
 
-// A PNG file whose rows come a band after the other and are not kept; compressed by zlib, on all threads. It appears when
-// it is finished; see base/output_file.h.
+// A PNG file whose rows come a band after the other and are not kept; compressed by zlib, on all threads. It appears
+// when it is finished; see base/output_file.h.
 class PngStream {
  public:
-  // `form`: the whole picture's size and kind, as EncodePng takes them; its bytes are not looked at. `path`: a plain file.
-  // Throws Error: InvalidUsage as EncodePng, OutputFailed.
+  // `form`: the whole picture's size and kind, as EncodePng takes them; its bytes are not looked at. `path`: a plain
+  // file. Throws Error: InvalidUsage as EncodePng, OutputFailed.
   PngStream(const std::filesystem::path& path, const Image& form, const ImageText& text);
 
   // The next rows, while another thread does what `meanwhile` says. Throws Error: OutputFailed; InvalidUsage for rows
@@ -74,8 +73,8 @@ class PngStream {
   std::uint32_t checksum_ = 1;  // Adler-32 of the rows so far
 };
 
-// WriteImage of facet/film.h with a text that is made of the image as it stands in the file (see StoredForm). PNG and EXR
-// hold it; other formats have no use for it and do not make it.
+// WriteImage of facet/film.h with a text that is made of the image as it stands in the file (see StoredForm). PNG and
+// EXR hold it; other formats have no use for it and do not make it.
 using TextMaker = std::function<ImageText(const Image& stored)>;
 void WriteImageWithText(const std::filesystem::path& path, const Image& image, const TextMaker& make_text);
 

@@ -8,7 +8,7 @@
 namespace facet {
 
 struct ImageFormat {
-  std::size_t at;              // where its signature stands
+  std::size_t at;  // where its signature stands
   std::string_view signature;
   std::string_view extension;  // by which OpenImageIO finds its reader
   std::string_view name;       // for messages

@@ -23,8 +23,8 @@
 namespace facet {
 namespace {
 
-// A progressive file of a few kilobytes can ask for thousands of scans, each a pass over the whole image. Encoders write
-// some ten; as many blocks as this are decoded in all, but so many scans of any image.
+// A progressive file of a few kilobytes can ask for thousands of scans, each a pass over the whole image. Encoders
+// write some ten; as many blocks as this are decoded in all, but so many scans of any image.
 constexpr std::uint64_t kMaxBlocks = std::uint64_t{1} << 28;
 constexpr std::uint64_t kFewScans = 32, kMaxScans = 500;
 
@@ -235,7 +235,8 @@ void DecodeJpeg(std::span<const std::byte> bytes, const std::string& name, int p
   const bool several_scans = jpeg_has_multiple_scans(&jpeg.decoder) != 0;
   const std::uint64_t blocks = BlockCount(jpeg.decoder);
   if (several_scans) {
-    jpeg.guard.most = static_cast<int>(std::clamp(kMaxBlocks / std::max<std::uint64_t>(blocks, 1), kFewScans, kMaxScans));
+    jpeg.guard.most =
+        static_cast<int>(std::clamp(kMaxBlocks / std::max<std::uint64_t>(blocks, 1), kFewScans, kMaxScans));
     jpeg.decoder.progress = &jpeg.guard.manager;
   }
   const MemoryLease coefficients(several_scans ? blocks : 0, sizeof(JBLOCK), "the coefficients of JPEG images", name,

@@ -36,15 +36,15 @@ enum FacetOiioResult {
 // FACET_OIIO_ABI_VERSION of the module.
 typedef int32_t (*FacetOiioAbiVersion)(void);
 
-// Decodes a whole file in memory. `extension` chooses OpenImageIO's reader. More than max_bytes of decoded pixels are too
-// large. as_stored: alpha stays associated where it is. On success `picture->pixels` belongs to the caller, who gives it back to FacetOiioFree. On failure `message`
-// (message_size bytes, at least 1) is one line.
+// Decodes a whole file in memory. `extension` chooses OpenImageIO's reader. More than max_bytes of decoded pixels are
+// too large. as_stored: alpha stays associated where it is. On success `picture->pixels` belongs to the caller, who
+// gives it back to FacetOiioFree. On failure `message` (message_size bytes, at least 1) is one line.
 typedef int32_t (*FacetOiioDecode)(const void* bytes, size_t size, const char* extension, int32_t max_side,
                                    uint64_t max_pixels, uint64_t max_bytes, int32_t as_stored,
                                    FacetOiioPicture* picture, char* message, size_t message_size);
 
-// A whole file in memory, of the format that `extension` names; `*bytes` belongs to the caller, as above. premultiplied:
-// the picture's alpha is associated.
+// A whole file in memory, of the format that `extension` names; `*bytes` belongs to the caller, as above.
+// premultiplied: the picture's alpha is associated.
 typedef int32_t (*FacetOiioEncode)(const char* extension, const FacetOiioPicture* picture, int32_t premultiplied,
                                    const FacetOiioText* text, size_t text_count, void** bytes, size_t* size,
                                    char* message, size_t message_size);

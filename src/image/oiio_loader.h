@@ -13,13 +13,13 @@
 
 namespace facet {
 
-// Decodes a format that OpenImageIO knows by its extension; see DecodeImage and FormatOf. `as_stored`: colours that stand
-// in the file multiplied by alpha stay so. Throws Error: MissingModule, InvalidInput, OutOfMemory, Unsupported.
+// Decodes a format that OpenImageIO knows by its extension; see DecodeImage and FormatOf. `as_stored`: colours that
+// stand in the file multiplied by alpha stay so. Throws Error: MissingModule, InvalidInput, OutOfMemory, Unsupported.
 Image DecodeWithOiio(std::span<const std::byte> bytes, std::string_view extension, const std::string& name,
                      bool as_stored = false);
 
-// A whole file of the format that `extension`, without its dot, names. `premultiplied`: the image's alpha is associated.
-// `text`: keywords and values, for formats that hold such. Throws Error: MissingModule, OutputFailed.
+// A whole file of the format that `extension`, without its dot, names. `premultiplied`: the image's alpha is
+// associated. `text`: keywords and values, for formats that hold such. Throws Error: MissingModule, OutputFailed.
 std::vector<std::byte> EncodeWithOiio(const std::string& extension, const Image& image, bool premultiplied,
                                       const std::vector<std::array<std::string, 2>>& text = {});
 

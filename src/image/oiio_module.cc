@@ -9,8 +9,8 @@
 #include <cstdlib>
 #include <cstring>
 #include <memory>
-#include <span>
 #include <new>
+#include <span>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -213,8 +213,8 @@ void Encode(const std::string& extension, const FacetOiioPicture& picture, bool 
   const bool has_alpha = picture.channels == 2 || picture.channels == 4;
   spec.alpha_channel = has_alpha ? picture.channels - 1 : -1;
   if (has_alpha && !premultiplied) spec.attribute("oiio:UnassociatedAlpha", 1);
-  // In TIFF it would become EXIF data, which OpenImageIO 2.4 cannot write to memory; readers take integers for sRGB there
-  // and floats for linear, as it is.
+  // In TIFF it would become EXIF data, which OpenImageIO 2.4 cannot write to memory; readers take integers for sRGB
+  // there and floats for linear, as it is.
   if (!extension.starts_with("tif")) {
     spec.attribute("oiio:ColorSpace", picture.encoding == static_cast<int>(Encoding::Linear) ? "Linear" : "sRGB");
   }
@@ -274,8 +274,9 @@ FACET_MODULE_EXPORT int32_t FacetOiioDecode_(const void* bytes, size_t size, con
 FACET_MODULE_EXPORT int32_t FacetOiioEncode_(const char* extension, const FacetOiioPicture* picture,
                                              int32_t premultiplied, const FacetOiioText* text, size_t text_count,
                                              void** bytes, size_t* size, char* message, size_t message_size) {
-  return Guarded(message, message_size,
-                 [&] { Encode(extension, *picture, premultiplied != 0, {text, text_count}, bytes, size); });
+  return Guarded(message, message_size, [&] {
+    Encode(extension, *picture, premultiplied != 0, {text, text_count}, bytes, size);
+  });
 }
 
 FACET_MODULE_EXPORT void FacetOiioFree_(void* pixels) { std::free(pixels); }

@@ -14,7 +14,9 @@
 namespace facet {
 namespace {
 
-const std::uint8_t* Data(std::span<const std::byte> bytes) { return reinterpret_cast<const std::uint8_t*>(bytes.data()); }
+const std::uint8_t* Data(std::span<const std::byte> bytes) {
+  return reinterpret_cast<const std::uint8_t*>(bytes.data());
+}
 
 Error Broken(const std::string& name) { return Error(ErrorCode::InvalidInput, "broken WebP", name); }
 
@@ -33,7 +35,8 @@ void DecodeFirstFrame(std::span<const std::byte> bytes, Image& image, const std:
 }  // namespace
 
 bool LooksLikeWebP(std::span<const std::byte> bytes) {
-  return bytes.size() >= 12 && std::memcmp(bytes.data(), "RIFF", 4) == 0 && std::memcmp(bytes.data() + 8, "WEBP", 4) == 0;
+  return bytes.size() >= 12 && std::memcmp(bytes.data(), "RIFF", 4) == 0 &&
+         std::memcmp(bytes.data() + 8, "WEBP", 4) == 0;
 }
 
 Image DecodeWebP(std::span<const std::byte> bytes, const std::string& name) {
@@ -74,7 +77,8 @@ std::vector<std::byte> EncodeWebP(const Image& image) {
   WebPConfig config;
   WebPPicture picture;
   WebPMemoryWriter writer;
-  if (WebPConfigInit(&config) == 0 || WebPConfigLosslessPreset(&config, kEffort) == 0 || WebPPictureInit(&picture) == 0) {
+  if (WebPConfigInit(&config) == 0 || WebPConfigLosslessPreset(&config, kEffort) == 0 ||
+      WebPPictureInit(&picture) == 0) {
     throw Error(ErrorCode::Internal, "libwebp is of another version than it was compiled for");
   }
   config.exact = 1;  // colours under alpha 0 stay
@@ -87,7 +91,8 @@ std::vector<std::byte> EncodeWebP(const Image& image) {
   const std::unique_ptr<WebPPicture, void (*)(WebPPicture*)> picture_owner(&picture, WebPPictureFree);
   const std::unique_ptr<WebPMemoryWriter, void (*)(WebPMemoryWriter*)> writer_owner(&writer, WebPMemoryWriterClear);
   const auto import = image.channels == 4 ? WebPPictureImportRGBA : WebPPictureImportRGB;
-  if (import(&picture, image.As<std::uint8_t>(), image.width * image.channels) == 0 || WebPEncode(&config, &picture) == 0) {
+  if (import(&picture, image.As<std::uint8_t>(), image.width * image.channels) == 0 ||
+      WebPEncode(&config, &picture) == 0) {
     throw Error(picture.error_code == VP8_ENC_ERROR_OUT_OF_MEMORY ? ErrorCode::OutOfMemory : ErrorCode::OutputFailed,
                 "libwebp could not encode the picture (its error " + std::to_string(picture.error_code) + ")");
   }

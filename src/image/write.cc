@@ -1,7 +1,7 @@
-// WriteImage of facet/film.h. PNG, JPEG and WebP are encoded here, all else by OpenImageIO. OpenEXR gets linear light as
-// floats with the colours multiplied by alpha, as that format wants them (8 and 16 bits are decoded first); Radiance
-// gets linear light; TIFF keeps the numbers, alpha straight; the others 8 bits. A format that gets no alpha takes opaque
-// pictures only.
+// WriteImage of facet/film.h. PNG, JPEG and WebP are encoded here, all else by OpenImageIO. OpenEXR gets linear light
+// as floats with the colours multiplied by alpha, as that format wants them (8 and 16 bits are decoded first); Radiance
+// gets linear light; TIFF keeps the numbers, alpha straight; the others 8 bits. A format that gets no alpha takes
+// opaque pictures only.
 #include <algorithm>
 #include <array>
 #include <string>
@@ -27,10 +27,12 @@ struct Format {
 };
 
 constexpr Format kFormats[] = {
-    {".png", Holds::Png},           {".exr", Holds::LinearPremultiplied}, {".hdr", Holds::LinearOpaque},
-    {".tif", Holds::Anything},      {".tiff", Holds::Anything},           {".jpg", Holds::BytesOpaque},
-    {".jpeg", Holds::BytesOpaque},  {".webp", Holds::Bytes},              {".bmp", Holds::BytesOpaque},
-    {".tga", Holds::Bytes},         {".ppm", Holds::BytesOpaque},
+    {".png", Holds::Png},          {".exr", Holds::LinearPremultiplied},
+    {".hdr", Holds::LinearOpaque}, {".tif", Holds::Anything},
+    {".tiff", Holds::Anything},    {".jpg", Holds::BytesOpaque},
+    {".jpeg", Holds::BytesOpaque}, {".webp", Holds::Bytes},
+    {".bmp", Holds::BytesOpaque},  {".tga", Holds::Bytes},
+    {".ppm", Holds::BytesOpaque},
 };
 
 const Format& FormatByName(const std::filesystem::path& path) {

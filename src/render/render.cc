@@ -109,7 +109,8 @@ void CountPrepared(std::uint64_t bytes, MemoryBudget& budget) {
 std::shared_ptr<const EnvironmentMap> FromSource(const EnvironmentSource& source, const EnvironmentOptions& options,
                                                  MemoryBudget& budget, std::vector<std::string>& warnings) {
   std::uint64_t admitted = 0;
-  if (auto kept = source.Find(options, [&](std::uint64_t bytes) { CountPrepared(admitted = bytes, budget); })) return kept;
+  if (auto kept = source.Find(options, [&](std::uint64_t bytes) { CountPrepared(admitted = bytes, budget); }))
+    return kept;
   budget.Release(admitted, kPrepared);  // what is found but is of no use takes no memory
   const auto picture = source.Picture();
   Count(*picture, options, budget);

@@ -88,7 +88,8 @@ void DecodeTextures(const Scene& scene, const std::vector<bool>& material_visibl
   }
   for (std::size_t t = 0; t < needed.size(); ++t) {
     const int image = plan.textures[t].image;
-    if (image != kWhiteImage && scene.images[std::size_t(image)].source->MayChange()) textures.entries[t].problem.clear();
+    if (image != kWhiteImage && scene.images[std::size_t(image)].source->MayChange())
+      textures.entries[t].problem.clear();
   }
   CheckSizes(scene, needed, texels, plan, textures, budget);
   // An image that is read in two roles is decoded once.

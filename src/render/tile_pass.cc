@@ -64,8 +64,8 @@ class TileCharge {
     admitted += more;
   }
 
-  // A pointer, a number, a setup and its place; a fragment's own numbers, those that its shading needs, its place in the
-  // order of layers. The vectors grow by half of these on average.
+  // A pointer, a number, a setup and its place; a fragment's own numbers, those that its shading needs, its place in
+  // the order of layers. The vectors grow by half of these on average.
   static constexpr std::size_t kPerRecord = 40 + SetupLayout::kStride * sizeof(float), kPerFragment = 120;
 
   std::size_t records_ = std::size_t{1} << 14, fragments_ = std::size_t{1} << 16;

@@ -177,8 +177,9 @@ class Check {
     if (golden && actual.width == golden->image.width && actual.height == golden->image.height) {
       result_.difference = CompareImages(golden->image, actual, {.memory_limit = options_.load.memory_limit});
     } else if (golden) {
-      other_size_ = "the golden picture is " + SizeText(golden->image.width, golden->image.height) + ", the rendering " +
-                    SizeText(actual.width, actual.height) + ": the setting 'size', or --update, makes them one";
+      other_size_ = "the golden picture is " + SizeText(golden->image.width, golden->image.height) +
+                    ", the rendering " + SizeText(actual.width, actual.height) +
+                    ": the setting 'size', or --update, makes them one";
     }
     if (same_film) {
       JudgePicture();
@@ -232,7 +233,8 @@ class Check {
         difference && expect_.has_thresholds && BrokenThresholds(*difference, expect_.thresholds).empty();
     result_.verdict = within || (difference && difference->equal) ? Verdict::Passed : Verdict::Failed;
     if (result_.verdict == Verdict::Failed) {
-      result_.message = difference ? "the film is equal, the developed picture is not: " + Summary(*difference) : other_size_;
+      result_.message =
+          difference ? "the film is equal, the developed picture is not: " + Summary(*difference) : other_size_;
     }
   }
 
@@ -241,10 +243,10 @@ class Check {
     const std::optional<ImageDifference>& difference = result_.difference;
     result_.verdict = Verdict::Failed;
     if (!difference) {
-      result_.message = !other_size_.empty()  ? other_size_
-                        : expect_.film      ? "the film differs"
-                        : expect_.picture   ? "there is no golden picture"  // to be updated
-                                            : "has no expectation; run with --update";
+      result_.message = !other_size_.empty() ? other_size_
+                        : expect_.film       ? "the film differs"
+                        : expect_.picture    ? "there is no golden picture"  // to be updated
+                                             : "has no expectation; run with --update";
       return;
     }
     const bool by_picture = !expect_.film || expect_.has_thresholds;

@@ -145,8 +145,8 @@ void ReadEntry(const Value& value, ManifestEntry& entry) {
   if (value.Has("expect")) entry.expect = ReadExpectation(value["expect"]);
 }
 
-// JSON lets a key stand twice and keeps the last value: one of two that somebody meant. No object of a manifest has very
-// many keys, and those of the parser take time that grows with their square. Looks at a text before it is parsed.
+// JSON lets a key stand twice and keeps the last value: one of two that somebody meant. No object of a manifest has
+// very many keys, and those of the parser take time that grows with their square. Looks at a text before it is parsed.
 class KeyGuard : public nlohmann::json_sax<Json> {
  public:
   explicit KeyGuard(const std::string& file) : file_(file) {}
@@ -179,7 +179,8 @@ class KeyGuard : public nlohmann::json_sax<Json> {
 
 Json Parse(const std::string& text, const std::string& file) {
   if (IsJsonDeeperThan(text, kMaxJsonDepth)) {
-    throw Error(ErrorCode::InvalidInput, "JSON is nested deeper than " + std::to_string(kMaxJsonDepth) + " levels", file);
+    throw Error(ErrorCode::InvalidInput, "JSON is nested deeper than " + std::to_string(kMaxJsonDepth) + " levels",
+                file);
   }
   try {
     KeyGuard guard(file);

@@ -53,7 +53,8 @@ class Sweep {
         report_(report),
         clock_(clock),
         start_(start),
-        compared_(std::uint64_t(resolved_.width) * std::uint64_t(resolved_.height), kComparedBytes, "films to compare") {
+        compared_(std::uint64_t(resolved_.width) * std::uint64_t(resolved_.height), kComparedBytes,
+                  "films to compare") {
     if (resolved_.environment.kind == EnvironmentSettings::Kind::Studio) {
       studio_ = std::make_shared<const Image>(StudioPicture(kStudioWidth, kStudioHeight));
       largest_environment_ = kStudioMaxSize;

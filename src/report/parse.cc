@@ -134,7 +134,8 @@ Size ParseSize(std::string_view option, std::string_view text) {
     const auto [stop, error] = std::from_chars(parts[i].data(), end, sides[i]);
     good = error == std::errc() && stop == end && sides[i] >= 1;
   }
-  const std::string hint = "give WIDTHxHEIGHT in pixels, each from 1 to 16384, such as 1280x720, or one number for a square";
+  const std::string hint =
+      "give WIDTHxHEIGHT in pixels, each from 1 to 16384, such as 1280x720, or one number for a square";
   if (!good) Refuse(option, text, "a size", hint);
   if (sides[0] > kMost || sides[1] > kMost) {
     const double bytes_per_pixel = sizeof(glm::vec4);  // of linear light
@@ -171,9 +172,10 @@ Orbit ParseOrbit(std::string_view option, std::string_view text) {
     if (good) numbers[i] = *value;
   }
   if (!good || numbers[2] < 0.0) {
-    Refuse(option, text, "an orbit",
-           "give THETA,PHI or THETA,PHI,RADIUS: two angles from -36000 to 36000 degrees, and a distance of at most 1e12 "
-           "(0, or none: the distance that shows the scene from every side), such as 30,75 or 30,75,4");
+    Refuse(
+        option, text, "an orbit",
+        "give THETA,PHI or THETA,PHI,RADIUS: two angles from -36000 to 36000 degrees, and a distance of at most 1e12 "
+        "(0, or none: the distance that shows the scene from every side), such as 30,75 or 30,75,4");
   }
   Orbit orbit{numbers[0], numbers[1], std::nullopt};
   if (numbers[2] > 0.0) orbit.radius = numbers[2];

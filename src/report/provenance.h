@@ -20,8 +20,8 @@ struct Provenance {
   Digest pixels;                                // HashImage() of StoredForm() of the picture
 };
 
-// Keyword and value pairs for the text in a PNG or EXR file: "Software", "facet:scene", "facet:settings" (a JSON object),
-// "facet:film" and "facet:pixels". Nothing in them depends on the machine or the time.
+// Keyword and value pairs for the text in a PNG or EXR file: "Software", "facet:scene", "facet:settings" (a JSON
+// object), "facet:film" and "facet:pixels". Nothing in them depends on the machine or the time.
 std::vector<std::array<std::string, 2>> ToImageText(const Provenance& provenance);
 
 // What a picture's file says of itself; messages call it `name`. Throws Error(InvalidInput) for one that is neither PNG

@@ -180,7 +180,8 @@ std::string ToJson(const ErrorReport& report) {
 ErrorReport ReportFromJson(const std::string& json, const std::string& name) {
   const std::string file = Printable(name);
   if (IsJsonDeeperThan(json, kMaxJsonDepth)) {
-    throw Error(ErrorCode::InvalidInput, "JSON is nested deeper than " + std::to_string(kMaxJsonDepth) + " levels", file);
+    throw Error(ErrorCode::InvalidInput, "JSON is nested deeper than " + std::to_string(kMaxJsonDepth) + " levels",
+                file);
   }
   const MemoryLease lease(JsonMemory(json), 2, "JSON", file);
   Json parsed;

@@ -56,7 +56,8 @@ struct Framing {
 };
 
 // The eye may move aside, so that the margins on opposite sides of the picture are equal.
-Framing FrameAll(const PosedScene& posed, const glm::dvec3& target, const CameraAxes& axes, double tan_x, double tan_y) {
+Framing FrameAll(const PosedScene& posed, const glm::dvec3& target, const CameraAxes& axes, double tan_x,
+                 double tan_y) {
   const double tx = tan_x / kMargin, ty = tan_y / kMargin;
   const ViewExtent seen = MeasureView(posed, target, axes, tx, ty);
   Framing framing = {std::max((seen.right + seen.left) / (2.0 * tx), (seen.top + seen.bottom) / (2.0 * ty)),

@@ -26,12 +26,12 @@ struct KnownBall {
 
 // The camera for a picture of width x height pixels.
 //
-// AutoCamera stands at theta 30 degrees, phi 75 degrees around the centre of the bounds, at the smallest distance at which
-// all vertices lie within the frustum, narrowed by 5 % as a margin, and moved aside so that the margins are equal. An
-// OrbitCamera without a radius stands where its OrbitBall (framing.h), a margin of 5 % larger, just lies within the
-// frustum. Empty bounds count as a cube of side 1 around the origin. Orbits that look straight down or up have -Z or +Z up for
-// theta 0, the limit of +Y up. Their near plane is so near that it cuts only what surrounds the eye (depth keeps its
-// precision, it is stored as 1 / w); there is no far plane.
+// AutoCamera stands at theta 30 degrees, phi 75 degrees around the centre of the bounds, at the smallest distance at
+// which all vertices lie within the frustum, narrowed by 5 % as a margin, and moved aside so that the margins are
+// equal. An OrbitCamera without a radius stands where its OrbitBall (framing.h), a margin of 5 % larger, just lies
+// within the frustum. Empty bounds count as a cube of side 1 around the origin. Orbits that look straight down or up
+// have -Z or +Z up for theta 0, the limit of +Y up. Their near plane is so near that it cuts only what surrounds the
+// eye (depth keeps its precision, it is stored as 1 / w); there is no far plane.
 //
 // A SceneCamera's node gives place and direction; its scale and shear are dropped. A FreeCamera stands as it is. The
 // lenses of both are fitted to the picture: never cropped nor stretched. In a picture that is narrower than the lens

@@ -26,8 +26,8 @@ ViewExtent MeasureView(const PosedScene& posed, const glm::dvec3& target, const 
                        double tan_y);
 
 // What an orbit without a radius turns about and keeps in view: a ball around all vertices, in every pose of the
-// animation that was chosen (some moments of it, from the first key to the last), so that neither the angle nor the time
-// moves the eye nearer or farther.
+// animation that was chosen (some moments of it, from the first key to the last), so that neither the angle nor the
+// time moves the eye nearer or farther.
 struct OrbitBall {
   glm::dvec3 centre{0.0};
   double radius = 0.0;  // of the bounds where nothing is drawn

@@ -58,7 +58,7 @@ struct PosedCamera {
 // triangles: normals and tangents present (made by MikkTSpace where the file has none; a primitive without normals
 // gets flat ones first). Triangles without normals and without normal texture keep `normals` empty: flat shading.
 struct PosedScene {
-  PoseSettings settings;        // that it was made with
+  PoseSettings settings;            // that it was made with
   std::vector<Drawable> drawables;  // in the order of a depth-first walk of the scene's roots
   std::vector<PosedLight> lights;
   std::vector<PosedCamera> cameras;  // those of hidden nodes, too

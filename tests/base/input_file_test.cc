@@ -90,18 +90,21 @@ TEST(DataPath, StaysInTheFolderOfTheFileThatNames) {
   fs::create_symlink("../../secret", folder / "models/textures/out");
   fs::create_symlink("..", folder / "models/up");
   fs::create_symlink("textures/in", folder / "models/inner");
-  for (const char* name : {"b.bin", "textures/in", "textures/../b.bin", "./b.bin", "inner", "missing/b", "a..b", "..b"}) {
+  for (const char* name :
+       {"b.bin", "textures/in", "textures/../b.bin", "./b.bin", "inner", "missing/b", "a..b", "..b"}) {
     EXPECT_EQ(DataPath(file, name), folder / "models" / name) << name;
   }
   for (const char* name : {"../secret", "textures/../../secret", "/dev/zero", "textures/out", "up/secret", ".."}) {
-    EXPECT_TRUE(Has(Refusal([&] { DataPath(file, name); }, ErrorCode::InvalidInput), "lies outside of the folder")) << name;
+    EXPECT_TRUE(Has(Refusal([&] { DataPath(file, name); }, ErrorCode::InvalidInput), "lies outside of the folder"))
+        << name;
   }
   // A user may say which folder they may lie in.
   for (const char* name : {"../secret", "textures/out", "up/secret", "b.bin"}) {
     EXPECT_EQ(DataPath(file, name, folder.path()), folder / "models" / name) << name;
   }
   EXPECT_EQ(DataPath(file, "/dev/zero", "/"), "/dev/zero");
-  EXPECT_TRUE(Has(Refusal([&] { DataPath(file, "b.bin", folder / "models/textures"); }, ErrorCode::InvalidInput), "outside"));
+  EXPECT_TRUE(
+      Has(Refusal([&] { DataPath(file, "b.bin", folder / "models/textures"); }, ErrorCode::InvalidInput), "outside"));
   const fs::path before = fs::current_path();
   fs::current_path(folder / "models");
   EXPECT_EQ(DataPath("a.gltf", "textures/in"), "textures/in");

@@ -34,9 +34,10 @@ TEST(MemoryBudget, CountsTogetherAndNamesAll) {
   budget.Charge(1 << 19, 1, "a film", {}, "smaller");
   budget.Charge(1 << 9, 1 << 10, "geometry");
   EXPECT_EQ(budget.Left(), 0u);
-  EXPECT_EQ(Refusal([&] { budget.Charge(2048, 1, "textures", "a.glb", "scale them down"); }),
-            "a.glb: this needs 2.0 KiB for textures, 512.0 KiB for geometry, 512.0 KiB for a film, and the memory limit is "
-            "1.0 MiB; scale them down, or raise the limit");
+  EXPECT_EQ(
+      Refusal([&] { budget.Charge(2048, 1, "textures", "a.glb", "scale them down"); }),
+      "a.glb: this needs 2.0 KiB for textures, 512.0 KiB for geometry, 512.0 KiB for a film, and the memory limit is "
+      "1.0 MiB; scale them down, or raise the limit");
   budget.Release(1 << 19, "a film");
   budget.Charge(2048, 1, "textures");
   EXPECT_EQ(budget.Left(), (1u << 19) - 2048);

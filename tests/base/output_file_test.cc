@@ -132,8 +132,8 @@ TEST(OutputFile, RefusesLinksWhereItIsToldTo) {
   fs::create_symlink("nowhere", folder / "dangling");
   ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
   for (const char* name : {"link", "dangling", "pipe"}) {
-    const std::string what = Refusal(
-        [&] { WriteFile(folder / name, BytesOf("after"), OutputFile::Links::Refuse); }, ErrorCode::OutputFailed);
+    const std::string what = Refusal([&] { WriteFile(folder / name, BytesOf("after"), OutputFile::Links::Refuse); },
+                                     ErrorCode::OutputFailed);
     EXPECT_NE(what.find("it is no plain file"), std::string::npos) << what;
   }
   EXPECT_EQ(TextOf(folder / "victim"), "before");
@@ -300,13 +300,21 @@ TEST(RefuseOverwriting, KnowsFilesByAnyName) {
   const fs::path in = folder / "in";
   for (const fs::path& out : {in, folder / "link", folder / "hard", folder / "x/../in", folder / "./in"}) {
     fs::create_directories(folder / "x");
-    EXPECT_NE(Refusal([&] { RefuseOverwriting({folder / "other", out}, {in}); }, ErrorCode::InvalidUsage)
+    EXPECT_NE(Refusal(
+                  [&] {
+                    RefuseOverwriting({folder / "other", out}, {in});
+                  },
+                  ErrorCode::InvalidUsage)
                   .find("is also an input"),
               std::string::npos)
         << out;
   }
   RefuseOverwriting({folder / "out", "/dev/null"}, {in, folder / "missing", "/dev/null"});
-  EXPECT_NE(Refusal([&] { RefuseOverwriting({folder / "new", folder / "x/../new"}, {}); }, ErrorCode::InvalidUsage)
+  EXPECT_NE(Refusal(
+                [&] {
+                  RefuseOverwriting({folder / "new", folder / "x/../new"}, {});
+                },
+                ErrorCode::InvalidUsage)
                 .find("two outputs"),
             std::string::npos);
 }

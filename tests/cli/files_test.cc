@@ -1,5 +1,5 @@
-// Files that are not the program's own: inputs are not written over, links and data lead nowhere else, and a run that is
-// ended leaves nothing behind.
+// Files that are not the program's own: inputs are not written over, links and data lead nowhere else, and a run that
+// is ended leaves nothing behind.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -77,7 +77,8 @@ TEST_F(FacetFiles, NoInputIsWrittenOver) {
   ExpectRefused(Draw(scene_, out_, {"--stats-json", out_}), 2, "two outputs");
   ExpectRefused(RunFacet({"diff", texture, sky, "-o", texture}), 2, "is also an input");
   WriteText(folder_ / "goldens.json", R"({"version": 1, "entries": [{"name": "a", "scene": "scene.gltf"}]})");
-  ExpectRefused(RunFacet({"check", folder_ / "goldens.json", "--html", folder_ / "goldens.json"}), 2, "is also an input");
+  ExpectRefused(RunFacet({"check", folder_ / "goldens.json", "--html", folder_ / "goldens.json"}), 2,
+                "is also an input");
   EXPECT_EQ(ReadText(scene_), TinyScene());
   EXPECT_EQ(Draw(car, folder_ / "other.png").exit_code, 0);
 }
@@ -107,12 +108,13 @@ TEST_F(FacetFiles, AnUpdateWritesOverNoInputAndNothingOutsideOfItsFolder) {
   const std::string manifest = folder_ / "inside/goldens.json";
   const auto update = [&](const std::string& picture, std::vector<std::string> more = {}) {
     WriteText(manifest, R"({"version": 1, "settings": {"size": 8}, "entries": [{"name": "a", "scene": "scene.gltf",
-      "expect": {"picture": ")" + picture + R"("}}]})");
+      "expect": {"picture": ")" +
+                            picture + R"("}}]})");
     more.insert(more.begin(), {"check", manifest, "--update"});
     return RunFacet(more);
   };
-  for (const std::string& picture :
-       {std::string("../outside/new.png"), std::string("folder/new.png"), std::string("link.png"), folder_ / "new.png"}) {
+  for (const std::string& picture : {std::string("../outside/new.png"), std::string("folder/new.png"),
+                                     std::string("link.png"), folder_ / "new.png"}) {
     const Outcome run = update(picture);
     EXPECT_EQ(run.exit_code, 2) << picture << run.out << run.err;
     EXPECT_TRUE(Has(run.err, "lies outside of the folder") || Has(run.err, "no plain file")) << run.err;
@@ -201,8 +203,8 @@ TEST_F(FacetFiles, ALinkGivenAsOutputIsFollowed) {
 TEST_F(FacetFiles, AFullDiskIsAnErrorInEveryFormat) {
   for (const std::string extension : {"png", "jpg", "webp", "exr", "hdr", "tif", "bmp", "tga", "ppm"}) {
     const std::string out = folder_ / ("out." + extension);
-    const Outcome run = RunFacet({"render", scene_, "-o", out, "--size", "64x64", "--background", "white"},
-                                 {.max_file_bytes = 100});
+    const Outcome run =
+        RunFacet({"render", scene_, "-o", out, "--size", "64x64", "--background", "white"}, {.max_file_bytes = 100});
     if (run.exit_code == 8) continue;  // without OpenImageIO
     ExpectRefused(run, 6, out + ": cannot be written: File too large");
   }
@@ -264,7 +266,8 @@ TEST_F(FacetFiles, AFileThatIsCutShortWhileItIsInUseIsOneLine) {
   constexpr std::size_t kAt = std::size_t{80} << 20;
   WritePixel(folder_ / "pixel.png", 100);
   const std::string pixel = ReadText(folder_ / "pixel.png"), sky = folder_ / "sky", large = folder_ / "large.bin";
-  std::string scene = TinyScene(R"("images": [{"bufferView": 4, "mimeType": "image/png"}], "textures": [{"source": 0}],)");
+  std::string scene =
+      TinyScene(R"("images": [{"bufferView": 4, "mimeType": "image/png"}], "textures": [{"source": 0}],)");
   const auto replace = [&](const std::string& old, const std::string& text) {
     const std::size_t at = scene.find(old);
     ASSERT_NE(at, std::string::npos) << old;

@@ -96,7 +96,8 @@ TEST_F(FacetRender, OrbitTargetAndFov) {
   EXPECT_EQ(Covered(beside), 16 * 16);
   EXPECT_EQ(At(beside, 40, 32)[3], 255);
   EXPECT_EQ(At(beside, 39, 32)[3], 0);
-  EXPECT_EQ(Covered(Draw({"--orbit", "180,90,4", "--fov", "90"}, "turns its back to the camera")), 0) << "the back of the square is culled";
+  EXPECT_EQ(Covered(Draw({"--orbit", "180,90,4", "--fov", "90"}, "turns its back to the camera")), 0)
+      << "the back of the square is culled";
   EXPECT_EQ(Covered(Draw({"--orbit=0,90", "--fov", "90"})), Covered(Draw({"--orbit=0,90,0", "--fov", "90"})));
   EXPECT_GT(Covered(Draw({})), 64 * 64 / 8) << "the automatic camera frames the square";
 }

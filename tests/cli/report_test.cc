@@ -126,8 +126,8 @@ TEST_F(FacetReport, StrictMakesWarningsFailures) {
 
 // The reference's film is larger than the picture's: 96 bytes a pixel.
 TEST_F(FacetReport, TheMemoryLimitHoldsForTheReference) {
-  const Outcome run = RunFacet({"report", kScene, "-o", stored_, "-q", "--size", "2048x2048", "--budget", "1s",
-                                "--memory-limit", "512MiB"});
+  const Outcome run = RunFacet(
+      {"report", kScene, "-o", stored_, "-q", "--size", "2048x2048", "--budget", "1s", "--memory-limit", "512MiB"});
   EXPECT_EQ(run.exit_code, 7) << run.err;
   EXPECT_TRUE(IsOneErrorLine(run.err)) << run.err;
   EXPECT_NE(run.err.find("384.0 MiB for the reference"), std::string::npos) << run.err;

@@ -112,7 +112,8 @@ TEST(Recognize, BuffersAndPicturesThatWereNotFetched) {
   }
   folder.Write("a.bin", file.Bin());
   const LoadedScene loaded = LoadGltf(folder.Write("a.gltf", file.Json("a.bin")));
-  for (const auto& [image, what] : {std::pair(0, "not a picture, but a Git LFS pointer"), {1, "not a picture, but an HTML"}}) {
+  for (const auto& [image, what] :
+       {std::pair(0, "not a picture, but a Git LFS pointer"), {1, "not a picture, but an HTML"}}) {
     try {
       loaded.scene.images.at(std::size_t(image)).source->Decode();
       ADD_FAILURE() << "no error";

@@ -10,7 +10,7 @@ namespace facet {
 namespace {
 
 const ImageText kBefore = {{"Software", "facet"}, {"facet:film", "0000"}},
-              kAfter = {{"Software", "facet"}, {"facet:film", "beef"}};
+                kAfter = {{"Software", "facet"}, {"facet:film", "beef"}};
 
 Image Rows(const Image& image, int begin, int end) {
   const std::size_t row = image.bytes.size() / std::size_t(image.height);
@@ -79,8 +79,7 @@ TEST(PngStream, RefusesWhatDoesNotFit) {
   EXPECT_EQ(CodeOf([&] { PngStream(path, MakePattern(8, 8, 3, ChannelType::F32), {}); }), ErrorCode::InvalidUsage);
   EXPECT_EQ(CodeOf([&] { PngStream(path, image, {{"", "no keyword"}}); }), ErrorCode::InvalidUsage);
   std::string what;
-  EXPECT_EQ(CodeOf([&] { PngStream(folder / "none" / "picture.png", image, {}); }, &what),
-            ErrorCode::OutputFailed);
+  EXPECT_EQ(CodeOf([&] { PngStream(folder / "none" / "picture.png", image, {}); }, &what), ErrorCode::OutputFailed);
   EXPECT_NE(what.find("none/picture.png: cannot be written: No such file"), std::string::npos) << what;
   PngStream png(path, image, kBefore);
   EXPECT_EQ(CodeOf([&] { png.Add(MakePattern(8, 1, 4, ChannelType::U8), nothing); }), ErrorCode::InvalidUsage);

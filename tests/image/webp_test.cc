@@ -79,7 +79,7 @@ TEST_F(WebP, OfAnAnimationTheFirstFrameIsRead) {
     config.lossless = config.exact = picture.use_argb = 1;
     picture.width = picture.height = 16;
     ASSERT_NE((channels == 4 ? WebPPictureImportRGBA : WebPPictureImportRGB)(&picture, frame.As<std::uint8_t>(),
-                                                                            16 * channels),
+                                                                             16 * channels),
               0);
     EXPECT_NE(WebPAnimEncoderAdd(encoder, &picture, 100 * (4 - channels), &config), 0);
     WebPPictureFree(&picture);

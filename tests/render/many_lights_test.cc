@@ -112,14 +112,16 @@ TEST(ManyLights, AtThePlacesThatPixelsShow) {
           if (distance > 0.0) places.push_back(place - normal * std::copysign(3e-4 * distance, glm::dot(ray, normal)));
         }
       } else {
-        for (int k = 0; k < 200; ++k) places.push_back(a + (b - a) * random() + glm::dvec3(0, 3e-4 * glm::length(a), 0));
+        for (int k = 0; k < 200; ++k)
+          places.push_back(a + (b - a) * random() + glm::dvec3(0, 3e-4 * glm::length(a), 0));
       }
       Add(scene, p, white);
     }
     std::size_t used = 0;
     for (const glm::dvec3& place : places) {
       // Most near the far and the near plane, where they are hard.
-      const bool hard = std::fabs(-place.z / camera.lens.zfar - 1.0) < 0.2 || std::fabs(-place.z / camera.lens.znear - 1.0) < 0.2;
+      const bool hard =
+          std::fabs(-place.z / camera.lens.zfar - 1.0) < 0.2 || std::fabs(-place.z / camera.lens.znear - 1.0) < 0.2;
       if (used < 100 && (hard || random() < 0.1)) AddLight(scene, place, 1e-3f * float(glm::length(place))), ++used;
     }
     const Film film = ExpectAllLights(scene, Settings(kSize, kSize, round % 2 == 0 ? 1 : 4, camera),

@@ -111,15 +111,16 @@ TEST_F(ManifestFile, AHundredThousandEntriesAreReadAndCharged) {
                number + ".png\"}}";
   }
   const std::filesystem::path path = Scratch::Manifest(entries);
-  EXPECT_EQ(MemoryRefusalUnder(std::uint64_t{1} << 30, [&] {
-              const facet::Manifest manifest = ReadManifest(path);
-              ASSERT_EQ(manifest.entries.size(), kCount);
-              for (std::size_t i = 0; i < kCount; ++i) {
-                ASSERT_FALSE(manifest.entries[i].problem) << i;
-                ASSERT_EQ(manifest.entries[i].name, std::to_string(i));
-              }
-              EXPECT_EQ(manifest.entries.back().pointer, "/entries/99999");
-            }),
+  EXPECT_EQ(MemoryRefusalUnder(std::uint64_t{1} << 30,
+                               [&] {
+                                 const facet::Manifest manifest = ReadManifest(path);
+                                 ASSERT_EQ(manifest.entries.size(), kCount);
+                                 for (std::size_t i = 0; i < kCount; ++i) {
+                                   ASSERT_FALSE(manifest.entries[i].problem) << i;
+                                   ASSERT_EQ(manifest.entries[i].name, std::to_string(i));
+                                 }
+                                 EXPECT_EQ(manifest.entries.back().pointer, "/entries/99999");
+                               }),
             "");
   // The JSON alone does not fit, then the entries that are made of it.
   EXPECT_NE(MemoryRefusalUnder(std::uint64_t{1} << 24, [&] { ReadManifest(path); }).find(" for JSON"),

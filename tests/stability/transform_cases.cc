@@ -206,8 +206,8 @@ std::vector<Case> TransformCases() {
        "normalised in double; without direction: refused, in an animation no rotation", "relative", 1e-5,
        MeasureQuaternions},
       {"transforms", "skins with zero, negative, NaN and tiny weights", "vertices collapse to the origin or vanish",
-       "divided by their sum in double; none: the joint of the first slot; infinite: the node's place", "relative", 1e-5,
-       MeasureSkins},
+       "divided by their sum in double; none: the joint of the first slot; infinite: the node's place", "relative",
+       1e-5, MeasureSkins},
   };
 }
 
