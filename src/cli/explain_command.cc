@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "base/memory_budget.h"
 #include "base/parallel.h"
 #include "cli/console.h"
 #include "facet/explain.h"
@@ -10,6 +11,8 @@
 namespace facet::cli {
 
 void RunExplain(const ExplainOptions& options) {
+  MemoryBudget budget(options.load.memory_limit);  // of what is neither loading nor rendering
+  const MemoryBudget::Scope scope(budget);
   Explanation explanation;
   std::vector<std::string> warnings;
   RunWithThreads(options.request.settings.threads, [&] {

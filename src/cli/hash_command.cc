@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/memory_budget.h"
 #include "base/parallel.h"
 #include "cli/console.h"
 #include "facet/version.h"
@@ -53,6 +54,8 @@ std::string Json(const std::vector<Line>& lines) {
 }  // namespace
 
 void RunHash(const HashOptions& options) {
+  MemoryBudget budget(options.load.memory_limit);  // of what is neither loading nor rendering
+  const MemoryBudget::Scope scope(budget);
   std::vector<Line> lines;
   RunWithThreads(options.request.settings.threads, [&] { lines = Digests(options); });
   PrintOutput(options.json ? Json(lines) : Text(lines));

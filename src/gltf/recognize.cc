@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "facet/error.h"
+
 namespace facet::gltf {
 namespace {
 
@@ -200,6 +202,11 @@ std::optional<ForeignFile> RecognizeForeign(std::string_view file) {
   std::string line(start.substr(0, std::min(start.find_first_of("\r\n"), kShown)));
   while (!line.empty() && static_cast<unsigned char>(line.back()) >= 0x80) line.pop_back();  // may be cut
   return ForeignFile{"text that begins with \"" + line + "\"", "if a server sent it, fetch the file again"};
+}
+
+void RefuseForeignJson(std::string_view file, const std::string& name) {
+  const auto foreign = RecognizeForeign(file);
+  if (foreign) throw Error(ErrorCode::InvalidInput, "not JSON, but " + foreign->what, name, foreign->is_picture ? "" : foreign->hint);
 }
 
 }  // namespace facet::gltf

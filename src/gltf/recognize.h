@@ -16,4 +16,7 @@ struct ForeignFile {
 // Told by the content. Nothing for what begins as JSON or GLB, and for what is none of the kinds that are known.
 std::optional<ForeignFile> RecognizeForeign(std::string_view file);
 
+// Throws Error(InvalidInput), in the words of JSON, for a file that is none: `name` is what messages call it.
+void RefuseForeignJson(std::string_view file, const std::string& name);
+
 }  // namespace facet::gltf

@@ -9,6 +9,7 @@
 #include "base/json_bounds.h"
 #include "base/memory_budget.h"
 #include "base/printable.h"
+#include "gltf/recognize.h"
 
 namespace facet {
 namespace {
@@ -178,6 +179,7 @@ class KeyGuard : public nlohmann::json_sax<Json> {
 };
 
 Json Parse(const std::string& text, const std::string& file) {
+  gltf::RefuseForeignJson(text, file);
   if (IsJsonDeeperThan(text, kMaxJsonDepth)) {
     throw Error(ErrorCode::InvalidInput, "JSON is nested deeper than " + std::to_string(kMaxJsonDepth) + " levels",
                 file);

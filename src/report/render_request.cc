@@ -258,8 +258,12 @@ RenderSettings ResolveRequest(const RenderRequest& request, const Scene& scene, 
   if (request.variant) settings.variant = Choose("--variant", "variant", *request.variant, scene.variants);
   if (request.environment) {
     const bool by_user = named_by.file.empty();
-    const std::filesystem::path path =
-        by_user ? *request.environment : DataPath(named_by.file, *request.environment, named_by.root);
+    std::filesystem::path path = *request.environment;
+    try {
+      if (!by_user) path = DataPath(named_by.file, path, named_by.root);
+    } catch (const Error& error) {
+      throw Error(error.code(), error.message(), "--environment", error.hint());
+    }
     if (!cache.empty()) {
       settings.environment.source = OpenEnvironment(path, cache);
     } else {

@@ -11,6 +11,7 @@
 #include "base/printable.h"
 #include "facet/error.h"
 #include "facet/report.h"
+#include "gltf/recognize.h"
 
 namespace facet {
 namespace {
@@ -179,6 +180,7 @@ std::string ToJson(const ErrorReport& report) {
 
 ErrorReport ReportFromJson(const std::string& json, const std::string& name) {
   const std::string file = Printable(name);
+  gltf::RefuseForeignJson(json, file);
   if (IsJsonDeeperThan(json, kMaxJsonDepth)) {
     throw Error(ErrorCode::InvalidInput, "JSON is nested deeper than " + std::to_string(kMaxJsonDepth) + " levels",
                 file);

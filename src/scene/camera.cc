@@ -156,7 +156,8 @@ ResolvedCamera ResolveSceneCamera(int index, const Scene& scene, const PosedScen
   const auto placed = std::find_if(posed.cameras.begin(), posed.cameras.end(),
                                    [&](const PosedCamera& candidate) { return candidate.camera == index; });
   if (placed == posed.cameras.end()) {
-    Fail("no node of the scene holds camera " + std::to_string(index), "choose another camera or another scene");
+    Fail("no node of the scene holds camera " + std::to_string(index) + ", or it is broken, which a warning says",
+         "choose another camera or another scene");
   }
   const glm::dmat4& matrix = placed->world_from_camera;
   CameraAxes axes;

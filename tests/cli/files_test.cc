@@ -94,6 +94,54 @@ TEST_F(FacetFiles, AReportIsWrittenOverNoFileOfTheScene) {
   EXPECT_EQ(ReadText(folder_ / "texture.json"), before);
 }
 
+TEST_F(FacetFiles, OutputsOfACheckAreWrittenOverNoInputOfAnyEntry) {
+  WriteText(folder_ / "car.gltf", TexturedScene("texture.png"));
+  WritePixel(folder_ / "texture.png", 100);
+  const std::string manifest = folder_ / "goldens.json";
+  WriteText(manifest, R"({"version": 1, "settings": {"size": 8}, "entries": [
+    {"name": "a", "scene": "scene.gltf", "expect": {"picture": "a.actual.png"}}, {"name": "b", "scene": "car.gltf"}]})");
+  // A golden picture under the name of what a failed entry gets.
+  WritePixel(folder_ / "a.actual.png", 1);
+  const auto files = [&] {
+    std::vector<std::string> bytes;
+    for (const std::string& name : folder_.Files()) bytes.push_back(ReadText(folder_ / name));
+    return bytes;
+  };
+  const std::vector<std::string> before = files();
+  for (const char* name : {"scene.gltf", "car.gltf", "texture.png", "a.actual.png", "goldens.json"}) {
+    for (const char* option : {"--html", "--junit"}) {
+      const Outcome run = RunFacet({"check", manifest, option, folder_ / name});
+      EXPECT_EQ(run.exit_code, 2) << name << run.out << run.err;
+      EXPECT_TRUE(Has(run.err, "is also an input")) << run.err;
+    }
+  }
+  const Outcome run = RunFacet({"check", manifest, "--output", folder_ / "."});
+  EXPECT_EQ(run.exit_code, 2) << run.out << run.err;
+  EXPECT_TRUE(Has(run.err, "is also an input")) << run.err;
+  EXPECT_EQ(files(), before);
+}
+
+// Two spellings of one name that is not there yet.
+TEST_F(FacetFiles, TwoOutputsAreTwoFiles) {
+  ExpectRefused(Draw(scene_, out_, {"--stats-json", folder_ / "./out.png"}), 2, "two outputs");
+  fs::create_symlink("out.png", folder_ / "link.json");
+  ExpectRefused(Draw(scene_, out_, {"--stats-json", folder_ / "link.json"}), 2, "two outputs");
+  EXPECT_FALSE(fs::exists(out_));
+}
+
+// One that cannot be written keeps none of the others.
+TEST_F(FacetFiles, ACheckWritesAllReportsThatItCan) {
+  WriteText(folder_ / "goldens.json", R"({"version": 1, "settings": {"size": 8}, "entries": [
+    {"name": "a", "scene": "scene.gltf"}]})");
+  fs::create_directories(folder_ / "out/a.actual.png");
+  const Outcome run = RunFacet({"check", folder_ / "goldens.json", "--output", folder_ / "out", "--html",
+                                folder_ / "a.html", "--junit", folder_ / "a.xml"});
+  EXPECT_EQ(run.exit_code, 2) << run.out << run.err;
+  EXPECT_TRUE(Has(run.err, "a.actual.png")) << run.err;
+  EXPECT_TRUE(fs::exists(folder_ / "a.html"));
+  EXPECT_TRUE(fs::exists(folder_ / "a.xml"));
+}
+
 TEST_F(FacetFiles, AnUpdateWritesOverNoInputAndNothingOutsideOfItsFolder) {
   WriteText(scene_, TexturedScene("texture.png"));
   WritePixel(folder_ / "texture.png", 100);

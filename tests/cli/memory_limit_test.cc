@@ -130,6 +130,12 @@ TEST_F(FacetMemoryLimit, NamesTheSizeOfTexturesBeyondAllLimits) {
   ExpectRefused(Draw(tiny_, whole_, {}), "a texture of 100000 x 100000 texels needs 74.5 GiB, and the limit is 32768");
 }
 
+// The stacks of threads are not what a limit is about.
+TEST_F(FacetMemoryLimit, LeavesRoomForManyThreads) {
+  const Outcome run = Draw(tiny_, whole_, {"--size", "64x64", "--threads", "128", "--memory-limit", "64MiB"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+}
+
 TEST_F(FacetMemoryLimit, TakesAmountsWithUnits) {
   for (const char* good : {"64MiB", "0.5GiB", "1TiB"}) {
     EXPECT_EQ(Draw(tiny_, whole_, {"--size", "8x8", "--memory-limit", good}).exit_code, 0) << good;

@@ -146,6 +146,9 @@ TEST(Container, ChunkRules) {
   while (json.size() % 4) json += ' ';
   const std::string chunks = U32(json.size()) + "JSON" + json + U32(4) + "ABCD" + "....";
   EXPECT_TRUE(LoadBytes("glTF" + U32(2) + U32(12 + chunks.size()) + chunks).report.warnings.empty());
+  // So is one of a type that is no word, where the chunks fill the file.
+  const std::string odd = U32(json.size()) + "JSON" + json + U32(4) + U32(0x01020304) + "....";
+  EXPECT_TRUE(LoadBytes("glTF" + U32(2) + U32(12 + odd.size()) + odd).report.warnings.empty());
   // Bytes after the declared end are ignored, and said to be.
   EXPECT_EQ(LoadBytes(Glb(kEmpty) + "tail").report.warnings.size(), 1u);
 }
@@ -179,6 +182,20 @@ TEST(Container, NotGltfAtAll) {
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::NotFound);
+  }
+}
+
+TEST(Container, HalvesOfCharactersAreReplaced) {
+  const std::pair<const char*, const char*> names[] = {{R"(a\ud800b)", "a\xEF\xBF\xBD" "b"},
+                                                       {R"(\uDFFF)", "\xEF\xBF\xBD"},
+                                                       {R"(\ud83d\ude00 \uD83D)", "\xF0\x9F\x98\x80 \xEF\xBF\xBD"},
+                                                       {R"(\\ud800 \udc00)", "\\ud800 \xEF\xBF\xBD"}};
+  for (const auto& [text, expected] : names) {
+    const LoadedScene loaded =
+        LoadBytes(R"({"asset":{"version":"2.0"},"nodes":[{"name":")" + std::string(text) + "\"}]}");
+    EXPECT_EQ(loaded.scene.nodes.at(0).name, expected) << text;
+    EXPECT_EQ(loaded.report.warnings,
+              std::vector<std::string>{"nodes[0].name: has half of a character; it became U+FFFD"});
   }
 }
 

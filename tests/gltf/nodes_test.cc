@@ -148,6 +148,28 @@ TEST(Nodes, SkinsReadTheirMatrices) {
   EXPECT_NE(LoadError(file.AsGlb(), ErrorCode::InvalidInput).find("has 1 matrices for 2 joints"), std::string::npos);
 }
 
+TEST(Nodes, WhatNothingHangsFromMayBeBroken) {
+  for (const char* broken : {R"({"scale":[1]})", R"({"rotation":"x"})", R"({"matrix":[1,2]})", R"({"skin":9})",
+                             R"({"extensions":{"EXT_mesh_gpu_instancing":{"attributes":{"TRANSLATION":99}}}})"}) {
+    FileMaker file;
+    file.Attribute("POSITION", file.Triangle());
+    file.NodesMore() = std::string(",") + broken;
+    std::string json = file.Json();
+    json.replace(json.find("\"nodes\":[0]"), 11, "\"nodes\":[0,1]");
+    EXPECT_EQ(LoadBytes(testing::Glb(json, file.Bin())).report.warnings.size(), 1u) << broken;
+    // What draws, or carries what draws, must be right.
+    std::string with_mesh = json;
+    with_mesh.insert(with_mesh.find(broken) + 1, "\"mesh\":0,");
+    LoadError(testing::Glb(with_mesh, file.Bin()), ErrorCode::InvalidInput);
+  }
+  FileMaker file;
+  file.Attribute("POSITION", file.Triangle());
+  file.NodesMore() = R"(,{"scale":[1],"children":[0]})";
+  std::string json = file.Json();
+  json.replace(json.find("\"nodes\":[0]"), 11, "\"nodes\":[1]");
+  LoadError(testing::Glb(json, file.Bin()), ErrorCode::InvalidInput);
+}
+
 TEST(Nodes, MorphWeightsFollowTheTargets) {
   FileMaker file;
   file.Attribute("POSITION", file.Triangle());

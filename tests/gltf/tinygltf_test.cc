@@ -233,7 +233,7 @@ void ExpectSameTexture(const TextureRef& ours, const Info& theirs, const char* w
   const auto pair = [&](const char* key, double otherwise) {
     glm::vec2 numbers(static_cast<float>(otherwise));
     for (int c = 0; value.Has(key) && c < 2; ++c) {
-      numbers[c] = static_cast<float>(value.Get(key).Get(std::size_t(c)).GetNumberAsDouble());
+      numbers[c] = static_cast<float>(value.Get(key).Get(c).GetNumberAsDouble());
     }
     return numbers;
   };

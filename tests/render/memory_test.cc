@@ -67,6 +67,14 @@ Scene Layers(int count, AlphaMode mode) {
   return scene;
 }
 
+// Why nothing is seen is found out by going through the geometry once more: that takes the place of the first time.
+TEST(FrameMemory, AnEmptyPictureTakesNoMoreThanAFullOne) {
+  Scene front = Layers(2000, AlphaMode::Opaque), back = front;
+  std::vector<std::uint32_t>& indices = back.meshes[0].primitives[0].indices;
+  for (std::size_t i = 0; i + 2 < indices.size(); i += 3) std::swap(indices[i + 1], indices[i + 2]);
+  EXPECT_EQ(Refusal(back, Small(), Least(front, Small())), "");
+}
+
 TEST(FrameMemory, CountsTheLayersOfATile) {
   RenderSettings settings = Settings(64, 64, 1, Orthographic(1.0));
   settings.tile_size = 64;

@@ -73,7 +73,6 @@ TEST_F(ManifestFile, IsReadWithItsSettings) {
 TEST_F(ManifestFile, SyntaxErrorsHaveLineAndColumn) {
   EXPECT_TRUE(Begins(Refusal("{\n  \"version\": 1,\n  }"), "goldens.json:3:3: syntax error"));
   EXPECT_TRUE(Begins(Refusal("{ \"version\" 1 }"), "goldens.json:1:13: syntax error"));
-  EXPECT_TRUE(Begins(Refusal(""), "goldens.json:1:1: syntax error"));
   EXPECT_TRUE(Begins(Refusal("{\"version\": 1, \"entries\": [{\"name\": \"\xff\"}]}"), "goldens.json:1:38: "));
   EXPECT_EQ(Refusal("{\"version\": 1, \"version\": 1, \"entries\": []}"),
             "goldens.json: the key 'version' is twice in one object");
@@ -102,6 +101,14 @@ TEST_F(ManifestFile, WhatIsNoManifestIsRefused) {
 }
 
 // Of so many, work that grows with their square would take hours.
+TEST_F(ManifestFile, OtherFilesAreCalledByTheirName) {
+  EXPECT_EQ(Refusal(""), "goldens.json: not JSON, but empty; fetch the file again");
+  EXPECT_EQ(Refusal("\x89PNG\r\n\x1a\n...."), "goldens.json: not JSON, but a PNG picture");
+  EXPECT_TRUE(Begins(Refusal("version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 1\n"),
+                     "goldens.json: not JSON, but a Git LFS pointer"));
+  EXPECT_TRUE(Begins(Refusal("<!DOCTYPE html><html></html>"), "goldens.json: not JSON, but an HTML page"));
+}
+
 TEST_F(ManifestFile, AHundredThousandEntriesAreReadAndCharged) {
   constexpr std::size_t kCount = 100000;
   std::string entries;
