@@ -90,27 +90,6 @@ void ReadMeshes(Context& context, BufferStore& buffers, AccessorReader& reader, 
   }
 }
 
-// A texture that reads coordinates which the primitive does not have shows one texel everywhere.
-void WarnOfMissingTexCoords(const Context& context, const Scene& scene) {
-  const Place list_place(context.place, "meshes");
-  for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
-    for (std::size_t p = 0; p < scene.meshes[m].primitives.size(); ++p) {
-      const Primitive& primitive = scene.meshes[m].primitives[p];
-      if (primitive.material < 0) continue;
-      const Material& material = scene.materials[std::size_t(primitive.material)];
-      for (const TextureRef* ref : {&material.base_color_texture, &material.metallic_roughness_texture,
-                                    &material.normal_texture, &material.occlusion_texture, &material.emissive_texture}) {
-        const auto set = std::size_t(ref->tex_coord);
-        const bool has_set = set < primitive.tex_coords.size() && !primitive.tex_coords[set].empty();
-        if (ref->texture < 0 || has_set || primitive.positions.empty()) continue;
-        const Place mesh_place(list_place, m), primitives_place(mesh_place, "primitives");
-        Place(primitives_place, context.primitives_read[m][p])
-            .Warn("has no TEXCOORD_" + std::to_string(set) + " for textures of its material: one texel is everywhere");
-      }
-    }
-  }
-}
-
 void ReadAsset(Context& context) {
   const Json& asset = context.document.root["asset"];
   const Place place(context.place, "asset");
@@ -141,7 +120,6 @@ LoadedScene Load(const std::filesystem::path& path, const LoadOptions& options) 
   ReadMaterials(context, scene);
   ReadVariants(context, scene);
   ReadMeshes(context, buffers, reader, shown, scene);
-  WarnOfMissingTexCoords(context, scene);
   ReadSkins(context, reader, shown, scene);
   const std::vector<bool> usable_cameras = ReadCameras(context, scene);
   ReadLights(context, scene);

@@ -81,25 +81,6 @@ TEST(Primitive, IndicesThatMakeNoTriangleDrawNone) {
   EXPECT_EQ(loaded.report.warnings.size(), 1u);
 }
 
-TEST(Primitive, TexturesWithoutCoordinatesAreSaidToBe) {
-  FileMaker file;
-  file.Attribute("POSITION", file.Triangle());
-  file.Attribute("TEXCOORD_0", file.Floats({0, 0, 1, 0, 0, 1}, "VEC2", 2));
-  file.PrimitiveMore() = ",\"material\":0";
-  const auto warnings = [&](const std::string& texture) {
-    file.RootMore() = R"(,"images":[{"uri":"data:image/png;base64,AAAA"}],"textures":[{"source":0}],
-        "materials":[{)" + texture + "}]";
-    return LoadBytes(file.AsGlb()).report.warnings;
-  };
-  EXPECT_TRUE(warnings(R"("normalTexture":{"index":0})").empty());
-  for (const char* texture : {R"("normalTexture":{"index":0,"texCoord":1})", R"("emissiveTexture":{"index":0,"texCoord":1})",
-                              R"("pbrMetallicRoughness":{"baseColorTexture":{"index":0,"texCoord":1}})"}) {
-    const std::vector<std::string> said = warnings(texture);
-    ASSERT_EQ(said.size(), 1u) << texture;
-    EXPECT_EQ(said[0].find("meshes[0].primitives[0]: has no TEXCOORD_1 "), 0u) << said[0];
-  }
-}
-
 TEST(Primitive, VerticesFarFromTheIndicesAreLeftOut) {
   FileMaker file;
   file.Attribute("POSITION",
