@@ -7,53 +7,39 @@
 namespace facet {
 
 bool IsJsonDeeperThan(std::string_view text, int levels) {
-  std::int64_t depth = 0;
-  bool in_string = false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    if (in_string) {
-      if (c == '\\') ++i;
-      if (c == '"') in_string = false;
-    } else if (c == '"') {
-      in_string = true;
-    } else if (c == '[' || c == '{') {
-      if (++depth > levels) return true;
-    } else if (c == ']' || c == '}') {
-      --depth;
-    }
-  }
-  return false;
+  std::int64_t depth = 0, deepest = 0;
+  ForEachJsonByte(text, [&](std::size_t i) {
+    if (text[i] == '[' || text[i] == '{') deepest = std::max(deepest, ++depth);
+    if (text[i] == ']' || text[i] == '}') --depth;
+    return deepest <= levels;
+  });
+  return deepest > levels;
 }
 
 std::uint64_t JsonMemory(std::string_view text) {
   // A value has 16 bytes; the rest with the allocator's own bytes. An array grows by doubling, so that each value is
   // there thrice for a moment.
   constexpr std::uint64_t kValue = 3 * 16, kMember = 2 * sizeof(std::string) + 16 + 32;
-  constexpr std::uint64_t kObject = 64, kArray = 48, kQuote = 32, kParser = 256;
+  constexpr std::uint64_t kObject = 64, kArray = 48, kString = 64, kParser = 256;
   // The parser keeps what it has read since the last string or number began, and that string as it is meant, in buffers
   // that double as well: each has up to two lengths, and three while it grows.
   constexpr std::uint64_t kBuffers = 2 + 3;
   std::uint64_t bytes = kParser + kValue + std::uint64_t(text.size());
   std::size_t start = 0, longest = 0;  // of what is kept
   const auto keep_from = [&](std::size_t at) { longest = std::max(longest, at - start), start = at; };
-  bool in_string = false, in_number = false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
+  bool in_number = false;
+  ForEachJsonByte(text, [&](std::size_t i) {
     const char c = text[i];
-    if (c == '"') bytes += kQuote;
-    if (in_string) {
-      if (c == '\\') ++i;
-      if (c == '"') in_string = false;
-      continue;
-    }
     const bool begins_number = !in_number && (c == '-' || (c >= '0' && c <= '9'));
     if (c == '"' || begins_number) keep_from(i);
-    in_string = c == '"';
     in_number = begins_number || (in_number && std::string_view("+-.0123456789eE").find(c) != std::string_view::npos);
+    if (c == '"') bytes += kString;
     if (c == ',') bytes += kValue;
     if (c == ':') bytes += kMember;
     if (c == '{') bytes += kObject + kValue;
     if (c == '[') bytes += kArray + kValue;
-  }
+    return true;
+  });
   keep_from(text.size());
   return bytes + kBuffers * std::uint64_t(longest);
 }

@@ -1,10 +1,27 @@
 // JSON from anybody, before a parser sees it.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
 
 namespace facet {
+
+// Calls take(i) for the bytes of a text that stand outside of its strings, and for the quote that each string begins
+// with, until it returns false.
+template <class Take>
+void ForEachJsonByte(std::string_view text, const Take& take) {
+  bool in_string = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (in_string) {
+      if (text[i] == '"') in_string = false;
+      if (text[i] == '\\') ++i;  // what follows is no end
+      continue;
+    }
+    in_string = text[i] == '"';
+    if (!take(i)) return;
+  }
+}
 
 // Whether objects and arrays lie in one another more than `levels` deep. Whoever walks through values by recursion asks
 // before: 20,000 brackets in a file would overflow the stack. Takes any text.

@@ -20,9 +20,8 @@ void RunExplain(const ExplainOptions& options) {
     warnings = inputs.loaded.report.warnings;
     explanation = Explain(inputs.loaded.scene, inputs.settings);
   });
-  for (const auto& list : {warnings, explanation.first.warnings}) {
-    PrintWarnings(list, options.strict, options.input.string());
-  }
+  warnings.insert(warnings.end(), explanation.first.warnings.begin(), explanation.first.warnings.end());
+  PrintWarnings(warnings, options.strict, options.input.string());
   const std::string scene = options.input.filename().string();
   PrintOutput(options.json ? ToJson(explanation, scene) : ToText(explanation, scene));
 }

@@ -20,9 +20,9 @@ std::vector<Line> Digests(const HashOptions& options) {
   const RenderInputs inputs = LoadInputs(options.input, options.request, options.load);
   RenderStats stats;
   const Film film = Render(inputs.loaded.scene, inputs.settings, &stats);
-  for (const auto& warnings : {inputs.loaded.report.warnings, stats.warnings}) {
-    PrintWarnings(warnings, options.strict, options.input.string());
-  }
+  std::vector<std::string> warnings = inputs.loaded.report.warnings;
+  warnings.insert(warnings.end(), stats.warnings.begin(), stats.warnings.end());
+  PrintWarnings(warnings, options.strict, options.input.string());
   const SceneDigests scene = HashScene(inputs.loaded.scene);
   return {{"film", HashFilm(film)},
           {"pixels", HashImage(Develop(film, options.request.display, options.request.type))},

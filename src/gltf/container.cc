@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 
+#include "base/json_bounds.h"
 #include "gltf/recognize.h"
 
 namespace facet::gltf {
@@ -20,8 +21,6 @@ std::uint32_t ReadU32(const std::byte* p) {
          std::to_integer<std::uint32_t>(p[2]) << 16 | std::to_integer<std::uint32_t>(p[3]) << 24;
 }
 
-std::string_view AsText(const Bytes& bytes) { return {reinterpret_cast<const char*>(bytes.data), bytes.size}; }
-
 // "1 byte", "7 bytes".
 std::string Count(std::size_t bytes) { return std::to_string(bytes) + (bytes == 1 ? " byte" : " bytes"); }
 
@@ -34,21 +33,13 @@ bool BeginsAsJson(std::string_view text) {
 // Just behind the bracket that closes the JSON object at the start of `text`; nothing where none does.
 std::optional<std::size_t> EndOfJson(std::string_view text) {
   std::int64_t depth = 0;
-  bool in_string = false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    if (in_string) {
-      if (c == '\\') ++i;
-      if (c == '"') in_string = false;
-    } else if (c == '"') {
-      in_string = true;
-    } else if (c == '[' || c == '{') {
-      ++depth;
-    } else if ((c == ']' || c == '}') && --depth == 0) {
-      return i + 1;
-    }
-  }
-  return std::nullopt;
+  std::optional<std::size_t> end;
+  ForEachJsonByte(text, [&](std::size_t i) {
+    if (text[i] == '[' || text[i] == '{') ++depth;
+    if ((text[i] == ']' || text[i] == '}') && --depth == 0) end = i + 1;
+    return !end;
+  });
+  return end;
 }
 
 // True for what can be the type of a chunk: letters, perhaps with zeros behind them.
@@ -75,8 +66,8 @@ class GlbReader {
   Container Read() {
     ReadHeader();
     std::size_t at = kHeaderSize + kChunkHeaderSize;
-    const std::size_t json_size = JsonSize(AsText(file_.Slice(at, file_.size - at)));
-    container_.json = AsText(file_.Slice(at, json_size));
+    const std::size_t json_size = JsonSize(file_.Slice(at, file_.size - at).Text());
+    container_.json = file_.Slice(at, json_size).Text();
     at += json_size;
     while (file_.size - at >= kChunkHeaderSize && ReadChunk(at)) {
     }
@@ -185,7 +176,7 @@ class GlbReader {
 Container OpenContainer(const Bytes& file, const Place& place) {
   if (file.size == 0) Fail(place, "the file is empty");
   if (file.size >= 4 && ReadU32(file.data) == kMagic) return GlbReader(file, place).Read();
-  const std::string_view text = AsText(file);
+  const std::string_view text = file.Text();
   if (const auto foreign = RecognizeForeign(text)) Fail(place, "not a glTF file, but " + foreign->what, foreign->hint);
   if (!BeginsAsJson(text)) Fail(place, "not a glTF file: neither JSON nor GLB", "is it the right one?");
   return {text, std::nullopt};

@@ -126,11 +126,4 @@ MemoryLease ListTiles(const FramePlan& plan, int first, int end, FrameGeometry& 
   return lease;
 }
 
-FrameGeometry RunGeometry(const FrameView& view, const PosedScene& posed, const FramePlan& plan, const TileGrid& grid,
-                          int samples, RenderStats& stats) {
-  FrameGeometry frame;
-  RunGeometry(view, posed, plan, grid, samples, frame, stats);
-  return frame;
-}
-
 }  // namespace facet

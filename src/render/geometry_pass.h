@@ -31,7 +31,4 @@ void RunGeometry(const FrameView& view, const PosedScene& posed, const FramePlan
 // that, so that a band of a large picture needs few. The lease is what they take.
 MemoryLease ListTiles(const FramePlan& plan, int first, int end, FrameGeometry& frame);
 
-FrameGeometry RunGeometry(const FrameView& view, const PosedScene& posed, const FramePlan& plan, const TileGrid& grid,
-                          int samples, RenderStats& stats);
-
 }  // namespace facet

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "base/input_file.h"
+#include "base/temporary_folder.h"
 #include "facet/error.h"
 #include "facet/image.h"
 #include "image/codec.h"
@@ -34,30 +35,7 @@ inline std::vector<std::byte> ReadBytes(const std::filesystem::path& path) {
   return {bytes.data, bytes.data + bytes.size};
 }
 
-// A folder of the test's own, gone at its end.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "facet-test-XXXXXX").string();
-    path_ = mkdtemp(pattern.data());
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::permissions(path_, std::filesystem::perms::owner_all, ignored);
-    std::filesystem::remove_all(path_, ignored);
-  }
-  std::filesystem::path operator/(const char* name) const { return path_ / name; }
-  const std::filesystem::path& path() const { return path_; }
-  std::vector<std::string> Names() const {
-    std::vector<std::string> names;
-    for (const auto& entry : std::filesystem::directory_iterator(path_)) names.push_back(entry.path().filename());
-    std::sort(names.begin(), names.end());
-    return names;
-  }
-
- private:
-  std::filesystem::path path_;
-};
+using TemporaryFolder = test::ScratchFolder;
 
 // The code of the Error that `body` throws; fails the test when it throws none.
 template <class Body>
