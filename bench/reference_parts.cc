@@ -12,8 +12,9 @@
 #include "facet/compare.h"
 #include "facet/film.h"
 #include "facet/load.h"
+#include "facet/render.h"
 #include "reference/reference.h"
-#include "report/measure.h"
+#include "measure/measure.h"
 
 namespace {
 

@@ -12,6 +12,7 @@
 #include "facet/render.h"
 #include "facet/report.h"
 #include "facet/scene.h"
+#include "facet/settings.h"
 #include "facet/shader.h"
 #include "facet/verify.h"
 #include "facet/version.h"

@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "facet/digest.h"
 #include "facet/image.h"
 
 namespace facet {
@@ -18,6 +19,9 @@ struct Film {
   int height = 0;
   std::vector<glm::vec4> pixels;
 };
+
+// Of the line "facet film WIDTH HEIGHT\n" and the pixels: R, G, B, A as little-endian IEEE 754 floats, top row first.
+Digest HashFilm(const Film& film);
 
 enum class ToneMap : std::uint8_t { None, Reinhard, Aces, AgX, Neutral };
 

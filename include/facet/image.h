@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "facet/digest.h"
+
 namespace facet {
 
 // How the numbers of a picture relate to light.
@@ -77,5 +79,9 @@ class ImageSource {
 
 // An ImageSource over a picture that is already in memory. Its header has no format, and the pixels' size in bytes.
 std::shared_ptr<const ImageSource> MakeImageSource(Image image, std::string name);
+
+// Of the line "facet image WIDTH HEIGHT CHANNELS BITS ENCODING\n" (32 bits are floats; srgb or linear) and the pixels
+// as they lie in memory, little-endian, top row first.
+Digest HashImage(const Image& image);
 
 }  // namespace facet

@@ -13,7 +13,7 @@
 
 namespace facet {
 
-class EnvironmentSource;  // EnvironmentSettings::source of facet/render.h
+class EnvironmentSource;  // EnvironmentSettings::source of facet/settings.h
 
 // An extension that a file names, and what becomes of it.
 struct ExtensionUse {

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "facet/digest.h"
 #include "facet/image.h"
 
 namespace facet {
@@ -208,5 +209,16 @@ struct Scene {
 // Throws Error(InvalidInput) naming the first index, size, number or cycle that breaks the rules above. Render() and
 // all that draws or measures a scene call it.
 void ValidateScene(const Scene& scene);
+
+// What a rendering starts from, each apart: where two machines' pictures differ, these tell a decoder's difference from
+// the renderer's. Names are not part of them: they change no picture.
+struct SceneDigests {
+  Digest description;  // nodes, materials, samplers, cameras, lights, skins, animations, variants
+  Digest geometry;     // attributes, indices and morph targets, as decoded
+  Digest textures;     // the images, as decoded; one that cannot be decoded counts as an empty one
+};
+
+// Decodes every image of the scene, in parallel.
+SceneDigests HashScene(const Scene& scene);
 
 }  // namespace facet

@@ -4,7 +4,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "facet/render.h"
+#include "facet/settings.h"
 
 namespace facet::cli {
 

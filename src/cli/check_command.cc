@@ -14,7 +14,7 @@
 #include "cli/console.h"
 #include "facet/error.h"
 #include "facet/version.h"
-#include "report/markup.h"
+#include "base/markup.h"
 
 namespace facet::cli {
 namespace {

@@ -14,7 +14,7 @@
 #include "facet/film.h"
 #include "facet/load.h"
 #include "facet/version.h"
-#include "report/short_number.h"
+#include "base/number_text.h"
 
 namespace facet::cli {
 namespace {

@@ -9,6 +9,7 @@
 #include "base/memory_budget.h"
 #include "base/parallel.h"
 #include "cli/console.h"
+#include "facet/render.h"
 #include "facet/version.h"
 
 namespace facet::cli {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "facet/load.h"
-#include "facet/render.h"
+#include "facet/settings.h"
 
 namespace facet::cli {
 

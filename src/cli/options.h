@@ -12,7 +12,7 @@
 #include "cli/diff_command.h"
 #include "facet/load.h"
 #include "facet/report.h"
-#include "report/render_request.h"
+#include "settings/render_request.h"
 
 namespace facet::cli {
 

@@ -23,7 +23,7 @@
 #include "film/hash_film.h"
 #include "image/codec.h"
 #include "image/hash_image.h"
-#include "report/provenance.h"
+#include "settings/provenance.h"
 
 namespace facet::cli {
 namespace {

@@ -11,7 +11,7 @@
 #include "cli/console.h"
 #include "facet/error.h"
 #include "facet/report.h"
-#include "report/short_number.h"
+#include "base/number_text.h"
 
 namespace facet::cli {
 namespace {

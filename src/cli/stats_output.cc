@@ -11,7 +11,7 @@
 #include "base/printable.h"
 #include "cli/camera_text.h"
 #include "facet/version.h"
-#include "report/report_words.h"
+#include "base/number_text.h"
 
 namespace facet::cli {
 namespace {

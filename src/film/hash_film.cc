@@ -3,7 +3,6 @@
 #include <span>
 #include <string>
 
-#include "facet/digest.h"
 #include "facet/error.h"
 
 namespace facet {

@@ -1,7 +1,8 @@
-// The digest of facet/digest.h for a film that comes in bands: the bytes of all its rows follow, top row first.
+// The digest of facet/film.h for a film that comes in bands: the bytes of all its rows follow, top row first.
 #pragma once
 
 #include "base/sha256.h"
+#include "facet/film.h"
 
 namespace facet {
 

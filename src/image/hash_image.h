@@ -1,4 +1,4 @@
-// The digest of facet/digest.h for a picture that comes in bands: the bytes of all its rows follow, top row first.
+// The digest of facet/image.h for a picture that comes in bands: the bytes of all its rows follow, top row first.
 #pragma once
 
 #include "base/sha256.h"

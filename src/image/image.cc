@@ -4,7 +4,6 @@
 #include <string>
 #include <utility>
 
-#include "facet/digest.h"
 #include "image/hash_image.h"
 
 namespace facet {

@@ -20,7 +20,7 @@
 
 #include "base/pages.h"
 #include "facet/image.h"
-#include "facet/render.h"
+#include "facet/settings.h"
 
 namespace facet {
 

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "facet/image.h"
-#include "facet/render.h"
+#include "facet/settings.h"
 #include "light/environment.h"
 
 namespace facet {

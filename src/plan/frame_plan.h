@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "facet/render.h"
+#include "facet/settings.h"
 #include "plan/frame_material.h"
 #include "scene/pose.h"
 

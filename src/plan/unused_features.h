@@ -1,7 +1,7 @@
 // The opposite of leaving out.
 #pragma once
 
-#include "facet/render.h"
+#include "facet/settings.h"
 #include "plan/frame_plan.h"
 
 namespace facet {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/memory_budget.h"
-#include "facet/render.h"
+#include "facet/settings.h"
 
 namespace facet {
 

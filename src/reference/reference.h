@@ -16,7 +16,7 @@
 
 #include "base/clock.h"
 #include "facet/film.h"
-#include "facet/render.h"
+#include "facet/settings.h"
 #include "facet/scene.h"
 #include "reference/spread_blocks.h"
 

@@ -1,6 +1,7 @@
 #include "render/render_in_double.h"
 
 #include "facet/error.h"
+#include "facet/render.h"
 #include "shade/shade_in_double.h"
 
 namespace facet {

@@ -1,7 +1,8 @@
 // The same picture without rounding in between.
 #pragma once
 
-#include "facet/render.h"
+#include "facet/film.h"
+#include "facet/settings.h"
 
 namespace facet {
 

@@ -4,7 +4,7 @@
 #include <glm/glm.hpp>
 #include <optional>
 
-#include "facet/render.h"
+#include "facet/settings.h"
 #include "facet/scene.h"
 #include "scene/framing.h"
 #include "scene/pose.h"

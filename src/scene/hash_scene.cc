@@ -4,7 +4,7 @@
 
 #include "base/parallel.h"
 #include "base/sha256.h"
-#include "facet/digest.h"
+#include "facet/scene.h"
 #include "facet/error.h"
 
 namespace facet {

@@ -8,7 +8,7 @@
 
 #include "base/pages.h"
 #include "facet/image.h"
-#include "facet/render.h"
+#include "facet/settings.h"
 #include "facet/scene.h"
 
 namespace facet {

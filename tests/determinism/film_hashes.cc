@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "facet/digest.h"
+#include "facet/scene.h"
 #include "facet/error.h"
 #include "facet/load.h"
 #include "facet/render.h"

@@ -3,7 +3,7 @@
 #include <cstring>
 
 #include "base/sha256.h"
-#include "facet/digest.h"
+#include "facet/film.h"
 
 namespace facet {
 namespace {

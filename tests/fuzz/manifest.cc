@@ -1,5 +1,5 @@
 // Manifests of golden tests: read, written anew, and run where that is little work.
-#include "report/manifest.h"
+#include "check/manifest.h"
 #include "base/memory_budget.h"
 #include "cli/tiny_scene.h"
 #include "facet/check.h"

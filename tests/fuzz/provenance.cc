@@ -2,8 +2,8 @@
 
 #include "base/memory_budget.h"
 #include "fuzz/fuzz.h"
-#include "report/provenance.h"
-#include "report/render_request.h"
+#include "settings/provenance.h"
+#include "settings/render_request.h"
 
 namespace facet::fuzz {
 

@@ -4,7 +4,7 @@
 #include "fuzz/fuzz.h"
 #include "fuzz/provenance.h"
 #include "image/codec.h"
-#include "report/provenance.h"
+#include "settings/provenance.h"
 
 namespace facet::fuzz {
 

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "everything.h"
-#include "facet/digest.h"
+#include "facet/scene.h"
 
 namespace facet {
 namespace {

@@ -1,4 +1,4 @@
-// Writes the reference's picture of a scene, for comparison with other renderers (tests/compare/compare_cycles.py):
+// Writes the reference's picture of a scene, for comparison with other renderers (tests/engines/compare_cycles.py):
 //   reference_film IN OUT.exr WIDTH HEIGHT ENVIRONMENT|none SAMPLES BATCHES
 // Through the file's first camera, or facet's own where it has none. Says the relative error that the picture has left.
 #include <cstdio>

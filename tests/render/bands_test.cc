@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/bytes_text.h"
-#include "facet/digest.h"
+#include "facet/film.h"
 #include "facet/error.h"
 #include "facet/load.h"
 #include "render/hand_built.h"

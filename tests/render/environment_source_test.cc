@@ -5,7 +5,7 @@
 
 #include <map>
 
-#include "facet/digest.h"
+#include "facet/film.h"
 #include "facet/error.h"
 #include "facet/load.h"
 #include "light/studio.h"

@@ -11,7 +11,6 @@
 #include <thread>
 #include <vector>
 
-#include "facet/digest.h"
 #include "facet/error.h"
 #include "facet/film.h"
 #include "facet/load.h"

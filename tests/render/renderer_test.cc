@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "facet/digest.h"
+#include "facet/film.h"
 #include "facet/error.h"
 #include "facet/load.h"
 #include "facet/render.h"

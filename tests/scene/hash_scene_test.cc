@@ -5,7 +5,7 @@
 #include <map>
 #include <string>
 
-#include "facet/digest.h"
+#include "facet/scene.h"
 #include "scene/scene_helpers.h"
 
 namespace facet {

@@ -1,0 +1,25 @@
+// Numbers in messages and reports, in any locale.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace facet {
+
+// Six significant digits, or as many as said: "0.0312", "1e-07", "inf".
+std::string ShortNumber(double value, int digits = 6);
+
+// Three digits and a unit: "41.3 ms", "1.2 GiB"; "not known" for what is no number.
+std::string TimeWords(double seconds);
+std::string BytesWords(double bytes);
+
+// Three digits: "0.0312", "4.2·10⁻⁷"; "not known" for what is no number.
+std::string ErrorWords(double error);
+
+// "10⁻⁷"
+std::string PowerOfTen(int exponent);
+
+// 1234567 as "1,234,567".
+std::string Grouped(std::uint64_t value);
+
+}  // namespace facet

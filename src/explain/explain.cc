@@ -1,0 +1,262 @@
+// Explain of facet/explain.h: the plan of the frame put into words, and each of its features left out in turn.
+#include "facet/explain.h"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include "base/parallel.h"
+#include "facet/version.h"
+#include "light/environment_source.h"
+#include "plan/frame_plan.h"
+#include "settings/render_request.h"
+#include "scene/camera.h"
+#include "scene/topology.h"
+
+namespace facet {
+namespace {
+
+constexpr int kFewestPairs = 5, kMostPairs = 41;
+constexpr double kSecondsOfPairs = 0.3;  // of a feature, where the fewest do not take longer
+constexpr double kSecondsOfPreparation = 0.5;
+
+constexpr const char* kRoles[5] = {"base-color", "metallic-roughness", "normal", "occlusion", "emission"};
+
+struct MaterialWord {
+  MaterialFeature feature;
+  const char* word;
+};
+constexpr MaterialWord kMaterialWords[] = {
+    {kBaseColorTexture, "base-color-texture"},
+    {kMetallicRoughnessTexture, "metallic-roughness-texture"},
+    {kNormalTexture, "normal-texture"},
+    {kOcclusionTexture, "occlusion"},
+    {kEmission, "emission"},
+    {kAlphaTest, "alpha-test"},
+    {kAlphaBlend, "blending"},
+    {kDoubleSided, "double-sided"},
+};
+
+ExplainedMaterial Describe(const Scene& scene, const PlannedMaterial& planned) {
+  ExplainedMaterial material;
+  material.index = planned.material;
+  if (planned.material >= 0) material.name = scene.materials[std::size_t(planned.material)].name;
+  material.lit = planned.frame.Has(kLit);
+  for (const MaterialWord& known : kMaterialWords) {
+    if (planned.frame.Has(known.feature)) material.features.emplace_back(known.word);
+  }
+  if (planned.frame.vertex_colors) material.features.emplace_back("vertex-colors");
+  return material;
+}
+
+std::vector<ExplainedMaterial> DescribeMaterials(const Scene& scene, const PosedScene& posed, const FramePlan& plan) {
+  std::vector<ExplainedMaterial> materials;
+  for (const PlannedMaterial& planned : plan.materials) materials.push_back(Describe(scene, planned));
+  for (std::size_t i = 0; i < posed.drawables.size(); ++i) {
+    ExplainedMaterial& material = materials[std::size_t(plan.material_of_drawable[i])];
+    ++material.drawables;
+    material.triangles += PrimitiveCount(*posed.drawables[i].geometry);
+  }
+  return materials;
+}
+
+std::vector<ExplainedTexture> DescribeTextures(const Scene& scene, const FramePlan& plan, const RenderStats& stats) {
+  std::vector<ExplainedTexture> textures(plan.textures.size());
+  for (std::size_t t = 0; t < textures.size(); ++t) {
+    const PlannedTexture& planned = plan.textures[t];
+    if (planned.image == kWhiteImage) continue;
+    const SceneImage& image = scene.images[std::size_t(planned.image)];
+    textures[t].image = image.name.empty() ? image.source->Name() : image.name;
+    textures[t].file = image.source->Header().value_or(ImageHeader());
+    for (int role = 0; role < 5; ++role) {
+      const bool reads = std::any_of(plan.materials.begin(), plan.materials.end(),
+                                     [&](const PlannedMaterial& m) { return m.textures[role] == static_cast<int>(t); });
+      if (reads) textures[t].roles.emplace_back(kRoles[role]);
+    }
+    for (const TextureStats& kept : stats.textures) {
+      if (kept.image == planned.image && kept.color == (planned.role == TextureRole::Color)) textures[t].kept = kept;
+    }
+  }
+  return textures;
+}
+
+ExplainedLights CountLights(const PosedScene& posed) {
+  ExplainedLights lights;
+  for (const PosedLight& light : posed.lights) {
+    ++(light.light->type == LightType::Directional ? lights.directional
+       : light.light->type == LightType::Point     ? lights.point
+                                                   : lights.spot);
+  }
+  return lights;
+}
+
+std::int64_t BytesKept(const RenderStats& stats) {
+  return static_cast<std::int64_t>(stats.texture_bytes + stats.environment_bytes + stats.pose_bytes);
+}
+
+// The value at `share` of the way through the sorted values.
+double Quantile(std::vector<double>& values, double share) {
+  const auto place = values.begin() + std::ptrdiff_t(share * double(values.size() - 1) + 0.5);
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
+}
+
+// A feature, and the settings of the same frame without it.
+struct Ablation {
+  std::string feature, option;
+  RenderSettings settings;
+};
+
+std::vector<Ablation> Ablations(const RenderSettings& settings, const FramePlan& plan) {
+  std::vector<Ablation> ablations;
+  const auto add = [&](std::string feature, std::string option) -> RenderSettings& {
+    return ablations.emplace_back(Ablation{std::move(feature), std::move(option), settings}).settings;
+  };
+  std::string already;  // the option is given once, with the whole list
+  for (const FeatureWord& known : FeatureWords()) {
+    if (settings.without.Has(known.feature)) already += std::string(known.word) + ",";
+  }
+  for (const FeatureWord& known : FeatureWords()) {
+    if (!plan.uses.Has(known.feature)) continue;
+    const std::string word(known.word);
+    add(word, "--without " + already + word).without.Add(known.feature);
+  }
+  if (plan.environment_background) add("background", "--background transparent").background = Background::Transparent;
+  if (settings.samples > 1) add("multisampling", "--samples 1").samples = 1;
+  if (settings.max_anisotropy > 1 && !plan.textures.empty()) {
+    add("anisotropy", "--max-anisotropy 1").max_anisotropy = 1;
+  }
+  return ablations;
+}
+
+class Measurement {
+ public:
+  Measurement(const Scene& scene, const RenderSettings& settings) : scene_(scene), settings_(settings) {}
+
+  // The first frame of all also makes what a process makes once.
+  void MeasureFrames(Explanation& out) {
+    Renderer(scene_).Render(settings_, film_, &out.first);
+    prepared_ = FirstFrame(renderer_, settings_);
+    renderer_.Render(settings_, film_, &out.steady);
+    std::vector<double> seconds;
+    Repeat(kFewestPairs, kSecondsOfPairs, [&] { seconds.push_back(Frame(renderer_, settings_)); });
+    out.frames = static_cast<int>(seconds.size());
+    out.steady_seconds = Quantile(seconds, 0.5);
+  }
+
+  FeatureCost Measure(const Ablation& ablation, const RenderStats& first) {
+    Renderer renderer(scene_);
+    const RenderStats prepared = FirstFrame(renderer, ablation.settings);
+    FeatureCost cost;
+    cost.feature = ablation.feature;
+    cost.option = ablation.option;
+    cost.bytes = BytesKept(prepared_) - BytesKept(prepared);
+    cost.first_seconds = MeasurePreparation(ablation, prepared);
+    // What a process makes once, only the very first frame made.
+    if (prepared_.environment_bytes > 0 && prepared.environment_bytes == 0) {
+      cost.first_seconds += first.environment_seconds;
+    }
+    std::vector<double> differences;
+    Repeat(kFewestPairs, kSecondsOfPairs, [&] {  // whichever is first may find the machine in another state
+      const bool with_first = differences.size() % 2 == 0;
+      const double a = with_first ? Frame(renderer_, settings_) : Frame(renderer, ablation.settings);
+      const double b = with_first ? Frame(renderer, ablation.settings) : Frame(renderer_, settings_);
+      differences.push_back(with_first ? a - b : b - a);
+    });
+    cost.pairs = static_cast<int>(differences.size());
+    cost.seconds = Quantile(differences, 0.5);
+    cost.seconds_low = Quantile(differences, 0.25);
+    cost.seconds_high = Quantile(differences, 0.75);
+    return cost;
+  }
+
+ private:
+  RenderStats FirstFrame(Renderer& renderer, const RenderSettings& settings) {
+    RenderStats stats;
+    renderer.Render(settings, film_, &stats);
+    return stats;
+  }
+
+  // Of the pose and the textures, where they are others without the feature.
+  double MeasurePreparation(const Ablation& ablation, const RenderStats& prepared) {
+    const bool other_pose = PoseOf(ablation.settings) != PoseOf(settings_);
+    const bool other_textures = prepared.texture_bytes != prepared_.texture_bytes;
+    if (!other_pose && !other_textures) return 0.0;
+    const auto seconds = [&](const RenderSettings& settings) {
+      Renderer renderer(scene_);
+      const RenderStats stats = FirstFrame(renderer, settings);
+      return (other_pose ? stats.pose_seconds : 0.0) + (other_textures ? stats.texture_seconds : 0.0);
+    };
+    std::vector<double> differences;
+    Repeat(1, kSecondsOfPreparation, [&] {
+      const double with = seconds(settings_);
+      differences.push_back(with - seconds(ablation.settings));
+    });
+    return Quantile(differences, 0.5);
+  }
+
+  double Frame(Renderer& renderer, const RenderSettings& settings) {
+    RenderStats stats;
+    renderer.Render(settings, film_, &stats);
+    return stats.total_seconds;
+  }
+
+  template <class Body>
+  static void Repeat(int fewest, double enough_seconds, const Body& body) {
+    using Clock = std::chrono::steady_clock;
+    const auto start = Clock::now();
+    for (int i = 0; i < kMostPairs; ++i) {
+      if (i >= fewest && std::chrono::duration<double>(Clock::now() - start).count() > enough_seconds) break;
+      body();
+    }
+  }
+
+  const Scene& scene_;
+  const RenderSettings& settings_;
+  Renderer renderer_{scene_};
+  RenderStats prepared_;  // of renderer_'s first frame
+  Film film_;
+};
+
+std::string EnvironmentName(const EnvironmentSettings& environment) {
+  switch (environment.kind) {
+    case EnvironmentSettings::Kind::None: return {};
+    case EnvironmentSettings::Kind::Studio: return "studio";
+    case EnvironmentSettings::Kind::Image: break;
+  }
+  const auto picture = PictureOf(environment);
+  return std::to_string(picture->width) + "x" + std::to_string(picture->height);
+}
+
+}  // namespace
+
+Explanation Explain(const Scene& scene, const RenderSettings& asked) {
+  Explanation out;
+  RunWithThreads(asked.threads, [&] {
+    RenderSettings settings = asked;
+    settings.progress = nullptr;  // many frames, each of which would start anew
+    Measurement measurement(scene, settings);
+    measurement.MeasureFrames(out);
+    const PosedScene posed = Pose(scene, PoseOf(settings));
+    const FramePlan plan = MakeFramePlan(scene, posed, settings);
+    out.version = Version();
+    out.width = settings.width;
+    out.height = settings.height;
+    out.samples = settings.samples;
+    out.materials = DescribeMaterials(scene, posed, plan);
+    out.textures = DescribeTextures(scene, plan, out.steady);
+    if (plan.punctual_lights) out.lights = CountLights(posed);
+    out.environment_light = plan.environment_light;
+    out.environment_background = plan.environment_background;
+    out.environment = EnvironmentName(settings.environment);
+    // A camera that frames the bounds would stand elsewhere without skins.
+    const ResolvedCamera camera = ResolveCamera(settings.camera, scene, posed, settings.width, settings.height);
+    settings.camera = FreeCamera{camera.world_from_camera, camera.lens};
+    for (const Ablation& ablation : Ablations(settings, plan)) {
+      out.costs.push_back(measurement.Measure(ablation, out.first));
+    }
+  });
+  return out;
+}
+
+}  // namespace facet

@@ -1,0 +1,299 @@
+#include "settings/render_request.h"
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "base/float_environment.h"
+#include "base/input_file.h"
+#include "base/memory_budget.h"
+#include "base/printable.h"
+#include "facet/error.h"
+#include "image/codec.h"
+#include "light/environment_source.h"
+#include "light/studio.h"
+
+namespace facet {
+namespace {
+
+constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
+
+constexpr std::string_view kOutput = "Output", kCamera = "Camera", kScene = "Scene", kLight = "Light",
+                           kQuality = "Quality and speed";
+
+using Text = std::string_view;
+
+constexpr std::array<FeatureWord, kFeatureCount> kFeatureWords = {{
+    {Feature::BaseColorTexture, "base-color-texture"},
+    {Feature::MetallicRoughnessTexture, "metallic-roughness-texture"},
+    {Feature::NormalTexture, "normal-texture"},
+    {Feature::Occlusion, "occlusion"},
+    {Feature::Emission, "emission"},
+    {Feature::VertexColors, "vertex-colors"},
+    {Feature::EnvironmentLight, "environment-light"},
+    {Feature::PunctualLights, "punctual-lights"},
+    {Feature::AlphaTest, "alpha-test"},
+    {Feature::Blending, "blending"},
+    {Feature::Skins, "skins"},
+    {Feature::MorphTargets, "morph-targets"},
+}};
+
+// Words with commas between them, or "none".
+FeatureSet ParseFeatures(Text where, Text text) {
+  std::vector<Text> words;
+  for (const FeatureWord& known : kFeatureWords) words.push_back(known.word);
+  FeatureSet features;
+  if (text == "none") return features;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    features.Add(kFeatureWords[std::size_t(ParseChoice(where, text.substr(begin, end - begin), words))].feature);
+    begin = end + 1;
+  }
+  return features;
+}
+
+constexpr std::array kOptions = {
+    RequestOption{"size", kOutput, "WxH|N", "1024x1024", "Pixels, each side 1 to 16384; N is NxN [1024x1024]",
+                  [](RenderRequest& r, Text where, Text text) {
+                    const Size size = ParseSize(where, text);
+                    r.settings.width = size.width;
+                    r.settings.height = size.height;
+                  }},
+    RequestOption{"bits", kOutput, "8|16", "8", "Bits a channel of PNG and TIFF [8]",
+                  [](RenderRequest& r, Text where, Text text) {
+                    r.type = ParseChoice(where, text, {"8", "16"}) == 0 ? ChannelType::U8 : ChannelType::U16;
+                  }},
+    RequestOption{"exposure", kOutput, "EV", "0", "Multiply light by 2^EV, -64 to 64 [0]",
+                  [](RenderRequest& r, Text where, Text text) {
+                    r.display.exposure_ev = ParseNumber(where, text, {-64.0, 64.0});
+                  }},
+    RequestOption{"tonemap", kOutput, "CURVE", "neutral", "none, reinhard, aces, agx or neutral [neutral]",
+                  [](RenderRequest& r, Text where, Text text) {
+                    r.display.tone_map =
+                        static_cast<ToneMap>(ParseChoice(where, text, {"none", "reinhard", "aces", "agx", "neutral"}));
+                  }},
+    RequestOption{"background", kOutput, "WHAT", "transparent",
+                  "#rgb, #rrggbb, a colour's name, transparent,\nor environment [transparent]",
+                  [](RenderRequest& r, Text where, Text text) {
+                    const std::string word = LowerCase(text);
+                    r.settings.background = word == "environment" ? Background::Environment : Background::Transparent;
+                    r.display.background_srgb.reset();
+                    if (word != "environment" && word != "transparent") {
+                      r.display.background_srgb = ParseColor(where, text);
+                    }
+                  }},
+
+    RequestOption{"camera", kCamera, "NAME|INDEX", "", "A camera of the file [framed from the bounds]",
+                  [](RenderRequest& r, Text, Text text) { r.camera = text; }},
+    RequestOption{"orbit", kCamera, "THETA,PHI[,RADIUS]", "",
+                  "Degrees about +Y, degrees from +Y, and distance\n[the distance that shows all from every side]",
+                  [](RenderRequest& r, Text where, Text text) { r.orbit = ParseOrbit(where, text); }},
+    RequestOption{"target", kCamera, "X,Y,Z", "", "What the orbit turns about [centre of the bounds]",
+                  [](RenderRequest& r, Text where, Text text) { r.target = ParseVec3(where, text); }},
+    RequestOption{"fov", kCamera, "DEG", "", "Vertical field of view, 1 to 179 [45]",
+                  [](RenderRequest& r, Text where, Text text) {
+                    r.fov_degrees = ParseNumber(where, text, {1.0, 179.0});
+                  }},
+
+    RequestOption{"scene", kScene, "NAME|INDEX", "", "A scene of the file [its default one]",
+                  [](RenderRequest& r, Text, Text text) { r.scene = text; }},
+    RequestOption{"animation", kScene, "NAME|INDEX", "",
+                  "Pose by an animation [rest pose; the first one\nif --time is given]",
+                  [](RenderRequest& r, Text, Text text) { r.animation = text; }},
+    RequestOption{"time", kScene, "SECONDS", "", "Moment of the animation [0]",
+                  [](RenderRequest& r, Text where, Text text) {
+                    r.settings.time = ParseNumber(where, text, {0.0, 1e9});
+                  }},
+    RequestOption{"variant", kScene, "NAME|INDEX", "", "A material variant of the file [none]",
+                  [](RenderRequest& r, Text, Text text) { r.variant = text; }},
+    RequestOption{"without", kScene, "LIST", "none",
+                  "Features to leave out, with commas between them:\nbase-color-texture, metallic-roughness-texture,\n"
+                  "normal-texture, occlusion, emission,\nvertex-colors, environment-light, punctual-lights,\n"
+                  "alpha-test, blending (drawn as opaque), skins,\nmorph-targets [none]",
+                  [](RenderRequest& r, Text where, Text text) { r.settings.without = ParseFeatures(where, text); }},
+
+    RequestOption{"environment", kLight, "FILE|none", "studio",
+                  "Equirectangular picture that lights the scene\n[a built-in studio]",
+                  [](RenderRequest& r, Text, Text text) {
+                    using Kind = EnvironmentSettings::Kind;
+                    r.environment.reset();
+                    r.settings.environment.kind = text == "studio" ? Kind::Studio
+                                                  : text == "none" ? Kind::None
+                                                                   : Kind::Image;
+                    if (r.settings.environment.kind == Kind::Image) r.environment = text;
+                  }},
+    RequestOption{"environment-rotation", kLight, "DEG", "0", "Counter-clockwise seen from above [0]",
+                  [](RenderRequest& r, Text where, Text text) {
+                    r.settings.environment.rotation = ParseNumber(where, text, {-36000.0, 36000.0}) * kRadiansPerDegree;
+                  }},
+    RequestOption{"environment-intensity", kLight, "F", "1", "Factor of its light, 0 to 1e6 [1]",
+                  [](RenderRequest& r, Text where, Text text) {
+                    r.settings.environment.intensity = ParseNumber(where, text, {0.0, 1e6});
+                  }},
+
+    RequestOption{"samples", kQuality, "1|2|4|8", "4", "Coverage samples a pixel [4]",
+                  [](RenderRequest& r, Text where, Text text) {
+                    r.settings.samples = 1 << ParseChoice(where, text, {"1", "2", "4", "8"});
+                  },
+                  "1 2 4 8"},
+    RequestOption{
+        "max-anisotropy", kQuality, "N", "8", "Texture samples along a stretched footprint,\n1 to 16 [8]",
+        [](RenderRequest& r, Text where, Text text) { r.settings.max_anisotropy = ParseInteger(where, text, 1, 16); },
+        "1 2 4 8 16"},
+    RequestOption{
+        "mip-filter", kQuality, "WHICH", "linear", "The most between mip levels: none, nearest or\nlinear [linear]",
+        [](RenderRequest& r, Text where, Text text) {
+          r.settings.mip_filter = static_cast<MipFilter>(ParseChoice(where, text, {"none", "nearest", "linear"}));
+        },
+        "none nearest linear"},
+    RequestOption{"texels", kQuality, "BITS", "mixed",
+                  "Bits a channel that textures are kept with: 8, 16\nor mixed, 16 for colours [mixed]",
+                  [](RenderRequest& r, Text where, Text text) {
+                    r.settings.texels = static_cast<TexelBits>(ParseChoice(where, text, {"mixed", "8", "16"}));
+                  },
+                  "8 mixed 16"},
+    RequestOption{"tangents", kQuality, "WHOSE", "file", "file, or generated also where it has some [file]",
+                  [](RenderRequest& r, Text where, Text text) {
+                    r.settings.tangents = static_cast<TangentSource>(ParseChoice(where, text, {"file", "generated"}));
+                  },
+                  "file generated"},
+    RequestOption{"environment-size", kQuality, "N", "1024",
+                  "Most texels along the environment's sharpest map,\n64, 128, 256, 512 or 1024 [1024]",
+                  [](RenderRequest& r, Text where, Text text) {
+                    r.settings.environment_size = 64 << ParseChoice(where, text, {"64", "128", "256", "512", "1024"});
+                  },
+                  "64 128 256 512 1024"},
+    RequestOption{"environment-samples", kQuality, "N", "24", "Of its narrowest lobe, 6 to 768 [24]",
+                  [](RenderRequest& r, Text where, Text text) {
+                    r.settings.environment_samples = ParseInteger(where, text, 6, 768);
+                  },
+                  "6 12 24 48 96 192"},
+    RequestOption{
+        "irradiance", kQuality, "METHOD", "convolution", "convolution, or harmonics of degree 2 [convolution]",
+        [](RenderRequest& r, Text where, Text text) {
+          r.settings.irradiance = static_cast<IrradianceMethod>(ParseChoice(where, text, {"convolution", "harmonics"}));
+        },
+        "harmonics convolution"},
+};
+
+template <class T>
+std::vector<std::string> Names(const std::vector<T>& things) {
+  std::vector<std::string> names;
+  names.reserve(things.size());
+  for (const T& thing : things) names.push_back(thing.name);
+  return names;
+}
+
+CameraChoice PlacedCamera(const RenderRequest& request, const Scene& scene) {
+  if (request.camera) {
+    return SceneCamera{Choose("--camera", "camera", *request.camera, Names(scene.cameras))};
+  }
+  std::optional<double> yfov;
+  if (request.fov_degrees) yfov = *request.fov_degrees * kRadiansPerDegree;
+  if (!request.orbit && !request.target) return AutoCamera{yfov};
+  OrbitCamera orbit;
+  if (request.orbit) {
+    orbit.theta = request.orbit->theta_degrees * kRadiansPerDegree;
+    orbit.phi = request.orbit->phi_degrees * kRadiansPerDegree;
+    orbit.radius = request.orbit->radius;
+  }
+  orbit.target = request.target;
+  orbit.yfov = yfov;
+  return orbit;
+}
+
+}  // namespace
+
+std::span<const FeatureWord, kFeatureCount> FeatureWords() { return kFeatureWords; }
+
+std::span<const RequestOption> RequestOptions() { return kOptions; }
+
+void SetOption(RenderRequest& request, std::string_view name, std::string_view where, std::string_view text) {
+  for (const RequestOption& option : kOptions) {
+    if (option.name != name) continue;
+    option.read(request, where, text);
+    request.given[std::string(name)] = text;
+    return;
+  }
+  std::string list;
+  for (const RequestOption& option : kOptions) list += (list.empty() ? "" : ", ") + std::string(option.name);
+  throw Error(ErrorCode::InvalidUsage, "there is no setting " + Quoted(name), std::string(where), "use one of " + list);
+}
+
+std::map<std::string, std::string> SpelledOut(const RenderRequest& request) {
+  std::map<std::string, std::string> all;
+  for (const RequestOption& option : kOptions) {
+    if (!option.initial.empty()) all[std::string(option.name)] = option.initial;
+  }
+  for (const auto& [name, text] : request.given) all[name] = text;
+  if (request.environment) all["environment"] = request.environment->filename().string();
+  return all;
+}
+
+void RefuseContradictions(const RenderRequest& request) {
+  for (const char* other : {"orbit", "target", "fov"}) {
+    if (!request.camera || !request.Given(other)) continue;
+    throw Error(ErrorCode::InvalidUsage, std::string("--camera cannot go together with --") + other, {},
+                "leave one of them out");
+  }
+  if (request.settings.background == Background::Environment &&
+      request.settings.environment.kind == EnvironmentSettings::Kind::None) {
+    throw Error(ErrorCode::InvalidUsage, "there is no environment to show", "--background environment",
+                "drop --environment none, or choose a colour");
+  }
+}
+
+RenderSettings ResolveRequest(const RenderRequest& request, const Scene& scene, const NamedBy& named_by,
+                              const std::filesystem::path& cache) {
+  RenderSettings settings = request.settings;
+  if (request.scene) settings.scene = Choose("--scene", "scene", *request.scene, Names(scene.scenes));
+  settings.camera = PlacedCamera(request, scene);
+  if (request.animation || request.Given("time")) {
+    settings.animation = Choose(request.animation ? "--animation" : "--time", "animation",
+                                request.animation.value_or("0"), Names(scene.animations));
+  }
+  if (request.variant) settings.variant = Choose("--variant", "variant", *request.variant, scene.variants);
+  if (request.environment) {
+    const bool by_user = named_by.file.empty();
+    std::filesystem::path path = *request.environment;
+    try {
+      if (!by_user) path = DataPath(named_by.file, path, named_by.root);
+    } catch (const Error& error) {
+      throw Error(error.code(), error.message(), "--environment", error.hint());
+    }
+    if (!cache.empty()) {
+      settings.environment.source = OpenEnvironment(path, cache);
+    } else {
+      MemoryBudget budget(settings.memory_limit);
+      const MemoryBudget::Scope scope(budget);
+      const FloatEnvironment pinned;
+      const Bytes file = ReadFile(path, {.regular_only = !by_user});
+      settings.environment.image = std::make_shared<const Image>(DecodeImage(file.Span(), path.string()));
+    }
+  }
+  return settings;
+}
+
+RenderInputs LoadInputs(const std::filesystem::path& scene, const RenderRequest& request, const LoadOptions& options,
+                        const NamedBy& named_by) {
+  RefuseContradictions(request);
+  RenderInputs inputs{LoadGltf(scene, options), {}};
+  RenderRequest limited = request;
+  limited.settings.memory_limit = options.memory_limit;
+  inputs.settings = ResolveRequest(limited, inputs.loaded.scene, named_by);
+  return inputs;
+}
+
+std::optional<Digest> HashEnvironment(const EnvironmentSettings& environment) {
+  switch (environment.kind) {
+    case EnvironmentSettings::Kind::None: return std::nullopt;
+    case EnvironmentSettings::Kind::Studio: return HashImage(StudioPicture(kStudioWidth, kStudioHeight));
+    case EnvironmentSettings::Kind::Image: break;
+  }
+  return HashImage(*PictureOf(environment));
+}
+
+}  // namespace facet
