@@ -13,8 +13,8 @@
 #include "facet/film.h"
 #include "facet/load.h"
 #include "facet/render.h"
-#include "reference/reference.h"
 #include "measure/measure.h"
+#include "reference/reference.h"
 
 namespace {
 

@@ -31,7 +31,7 @@ struct OrbitCamera {
   // animation, so that turntables neither swell nor shrink.
   std::optional<double> radius;
   std::optional<glm::dvec3> target;  // none: the centre of the bounds (without a radius, of all those moments)
-  std::optional<double> yfov;                    // radians; 45 degrees if none
+  std::optional<double> yfov;        // radians; 45 degrees if none
 };
 
 // A camera of the scene, by index into Scene::cameras, placed by the first node of the scene that holds it.
@@ -56,7 +56,7 @@ struct EnvironmentSettings {
   Kind kind = Kind::Studio;
   std::shared_ptr<const Image> image;  // Kind::Image: any type; 32768 pixels a side and 2^28 in all at most
   std::shared_ptr<const EnvironmentSource> source;  // Kind::Image where `image` is null: a file
-  double rotation = 0.0;               // radians about +Y, counter-clockwise seen from above
+  double rotation = 0.0;                            // radians about +Y, counter-clockwise seen from above
   double intensity = 1.0;
 };
 
@@ -81,14 +81,14 @@ enum class Feature : std::uint32_t {
   BaseColorTexture = 1u << 0,
   MetallicRoughnessTexture = 1u << 1,
   NormalTexture = 1u << 2,
-  Occlusion = 1u << 3,         // the texture
-  Emission = 1u << 4,          // factor and texture
+  Occlusion = 1u << 3,  // the texture
+  Emission = 1u << 4,   // factor and texture
   VertexColors = 1u << 5,
   EnvironmentLight = 1u << 6,  // the background stays
   PunctualLights = 1u << 7,
-  AlphaTest = 1u << 8,         // MASK is drawn as OPAQUE
-  Blending = 1u << 9,          // BLEND is drawn as OPAQUE
-  Skins = 1u << 10,            // meshes stand where their nodes do
+  AlphaTest = 1u << 8,  // MASK is drawn as OPAQUE
+  Blending = 1u << 9,   // BLEND is drawn as OPAQUE
+  Skins = 1u << 10,     // meshes stand where their nodes do
   MorphTargets = 1u << 11,
 };
 inline constexpr int kFeatureCount = 12;
@@ -110,10 +110,10 @@ class FeatureSet {
 // --- Settings --------------------------------------------------------------------------------------------------------
 
 struct RenderSettings {
-  int width = 1024;   // 1 to 16384
-  int height = 1024;  // 1 to 16384
-  int samples = 4;    // coverage samples per pixel: 1, 2, 4 or 8
-  int threads = 0;    // 0: one per core; at most 1024
+  int width = 1024;                          // 1 to 16384
+  int height = 1024;                         // 1 to 16384
+  int samples = 4;                           // coverage samples per pixel: 1, 2, 4 or 8
+  int threads = 0;                           // 0: one per core; at most 1024
   int max_anisotropy = 8;                    // 1 to 16
   MipFilter mip_filter = MipFilter::Linear;  // the most that samplers get
   TexelBits texels = TexelBits::Mixed;
@@ -122,16 +122,16 @@ struct RenderSettings {
   int environment_samples = 24;  // of the narrowest lobe it is filtered with, wider ones take more: 6 to 768
   IrradianceMethod irradiance = IrradianceMethod::Convolution;
   TangentSource tangents = TangentSource::File;
-  int tile_size = 32;      // 8, 16, 32 or 64: never changes the picture
+  int tile_size = 32;  // 8, 16, 32 or 64: never changes the picture
   // Bytes that the frame may take with all that grows with the scene or the picture: the scene itself, posed copies,
   // lists of triangles, textures and what is decoded for them, the environment, the film. What needs more is refused
   // before it is allocated, with Error(OutOfMemory). 0: three quarters of what the machine, or the process's control
   // group, has.
   std::uint64_t memory_limit = 0;
-  int scene = -1;          // -1: the default one
-  int animation = -1;      // -1: rest pose
-  double time = 0.0;       // seconds
-  int variant = -1;        // -1: none
+  int scene = -1;      // -1: the default one
+  int animation = -1;  // -1: rest pose
+  double time = 0.0;   // seconds
+  int variant = -1;    // -1: none
   CameraChoice camera = AutoCamera{};
   EnvironmentSettings environment;
   Background background = Background::Transparent;

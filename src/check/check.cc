@@ -10,17 +10,17 @@
 
 #include "base/input_file.h"
 #include "base/memory_budget.h"
+#include "base/number_text.h"
 #include "base/output_file.h"
 #include "base/parallel.h"
 #include "base/printable.h"
+#include "check/manifest.h"
 #include "facet/error.h"
 #include "facet/film.h"
 #include "facet/render.h"
 #include "facet/version.h"
 #include "image/codec.h"
-#include "check/manifest.h"
 #include "settings/provenance.h"
-#include "base/number_text.h"
 
 namespace facet {
 namespace {

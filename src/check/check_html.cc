@@ -2,11 +2,11 @@
 #include <string>
 #include <string_view>
 
-#include "facet/check.h"
-#include "facet/version.h"
 #include "base/base64.h"
 #include "base/markup.h"
 #include "base/number_text.h"
+#include "facet/check.h"
+#include "facet/version.h"
 
 namespace facet {
 namespace {

@@ -2,8 +2,8 @@
 #include <filesystem>
 #include <string>
 
-#include "facet/check.h"
 #include "base/markup.h"
+#include "facet/check.h"
 
 namespace facet {
 namespace {

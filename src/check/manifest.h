@@ -39,8 +39,8 @@ struct ManifestEntry {
 };
 
 struct Manifest {
-  std::string name;              // what messages call it
-  std::filesystem::path path;    // what it was read from: paths in it are relative to its folder
+  std::string name;            // what messages call it
+  std::filesystem::path path;  // what it was read from: paths in it are relative to its folder
   std::string text;
   std::vector<ManifestEntry> entries;
   std::vector<Error> problems;  // that concern no single entry

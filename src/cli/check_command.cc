@@ -10,11 +10,11 @@
 #include <utility>
 #include <vector>
 
+#include "base/markup.h"
 #include "base/output_file.h"
 #include "cli/console.h"
 #include "facet/error.h"
 #include "facet/version.h"
-#include "base/markup.h"
 
 namespace facet::cli {
 namespace {

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/number_text.h"
 #include "base/output_file.h"
 #include "base/printable.h"
 #include "cli/console.h"
@@ -14,7 +15,6 @@
 #include "facet/film.h"
 #include "facet/load.h"
 #include "facet/version.h"
-#include "base/number_text.h"
 
 namespace facet::cli {
 namespace {

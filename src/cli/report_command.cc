@@ -6,12 +6,12 @@
 #include <string>
 
 #include "base/input_file.h"
+#include "base/number_text.h"
 #include "base/output_file.h"
 #include "base/printable.h"
 #include "cli/console.h"
 #include "facet/error.h"
 #include "facet/report.h"
-#include "base/number_text.h"
 
 namespace facet::cli {
 namespace {

@@ -8,10 +8,10 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "base/number_text.h"
 #include "base/printable.h"
 #include "cli/camera_text.h"
 #include "facet/version.h"
-#include "base/number_text.h"
 
 namespace facet::cli {
 namespace {

@@ -10,8 +10,8 @@
 #include <numbers>
 
 #include "base/parallel.h"
-#include "math/elementary.h"
 #include "compare/tone_light.h"
+#include "math/elementary.h"
 
 namespace facet {
 namespace {

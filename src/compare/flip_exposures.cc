@@ -2,9 +2,9 @@
 #include <cmath>
 #include <cstddef>
 
-#include "math/elementary.h"
 #include "compare/flip.h"
 #include "compare/tone_light.h"
+#include "math/elementary.h"
 
 namespace facet {
 namespace {

@@ -9,13 +9,13 @@
 #include "base/memory_budget.h"
 #include "base/parallel.h"
 #include "color/srgb.h"
+#include "compare/flip.h"
+#include "compare/ssim.h"
+#include "compare/tone_light.h"
 #include "facet/compare.h"
 #include "facet/error.h"
 #include "image/convert.h"
 #include "math/elementary.h"
-#include "compare/flip.h"
-#include "compare/ssim.h"
-#include "compare/tone_light.h"
 
 namespace facet {
 namespace {

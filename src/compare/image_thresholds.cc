@@ -1,5 +1,5 @@
-#include "facet/compare.h"
 #include "base/number_text.h"
+#include "facet/compare.h"
 
 namespace facet {
 

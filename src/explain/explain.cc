@@ -9,9 +9,9 @@
 #include "facet/version.h"
 #include "light/environment_source.h"
 #include "plan/frame_plan.h"
-#include "settings/render_request.h"
 #include "scene/camera.h"
 #include "scene/topology.h"
+#include "settings/render_request.h"
 
 namespace facet {
 namespace {

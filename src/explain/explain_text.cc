@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
+#include "base/number_text.h"
 #include "base/printable.h"
 #include "facet/explain.h"
-#include "base/number_text.h"
 
 namespace facet {
 namespace {
@@ -149,15 +149,15 @@ std::string LeftOutText(const Explanation& e) {
 std::string FirstFrameText(const Explanation& e) {
   const RenderStats& s = e.first;
   const auto decoded = s.images_decoded == 1 ? " image)" : " images)";
-  return Table({{"The first frame", "ms"},
-                {"pose", Milliseconds(s.pose_seconds)},
-                {"textures (" + std::to_string(s.images_decoded) + decoded + ", tangents",
-                 Milliseconds(s.texture_seconds)},
-                {"prepare the environment", Milliseconds(s.environment_seconds)},
-                {"geometry", Milliseconds(s.geometry_seconds)},
-                {"pixels", Milliseconds(s.raster_seconds)},
-                {"all", Milliseconds(s.total_seconds)}},
-               "lr");
+  return Table(
+      {{"The first frame", "ms"},
+       {"pose", Milliseconds(s.pose_seconds)},
+       {"textures (" + std::to_string(s.images_decoded) + decoded + ", tangents", Milliseconds(s.texture_seconds)},
+       {"prepare the environment", Milliseconds(s.environment_seconds)},
+       {"geometry", Milliseconds(s.geometry_seconds)},
+       {"pixels", Milliseconds(s.raster_seconds)},
+       {"all", Milliseconds(s.total_seconds)}},
+      "lr");
 }
 
 std::string CostsText(const Explanation& e) {

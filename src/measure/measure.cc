@@ -10,9 +10,9 @@
 #include <string>
 
 #include "base/parallel.h"
+#include "compare/flip.h"
 #include "facet/compare.h"
 #include "image/convert.h"
-#include "compare/flip.h"
 
 namespace facet {
 namespace {

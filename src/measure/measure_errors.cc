@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/memory_budget.h"
+#include "base/number_text.h"
 #include "base/parallel.h"
 #include "facet/compare.h"
 #include "facet/error.h"
@@ -18,12 +19,11 @@
 #include "facet/version.h"
 #include "image/codec.h"
 #include "light/studio_table.h"
-#include "reference/reference.h"
-#include "render/render_in_double.h"
 #include "measure/knobs.h"
 #include "measure/measure.h"
+#include "reference/reference.h"
+#include "render/render_in_double.h"
 #include "settings/render_request.h"
-#include "base/number_text.h"
 
 namespace facet {
 namespace {

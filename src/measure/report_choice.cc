@@ -4,13 +4,12 @@
 #include <limits>
 #include <tuple>
 
+#include "base/number_text.h"
 #include "base/printable.h"
 #include "facet/error.h"
 #include "facet/report.h"
 #include "measure/knobs.h"
 #include "measure/measure_errors.h"
-#include "base/number_text.h"
-#include "base/number_text.h"
 
 namespace facet {
 namespace {

@@ -5,13 +5,13 @@
 #include <string>
 #include <string_view>
 
-#include "facet/report.h"
 #include "base/base64.h"
 #include "base/markup.h"
-#include "measure/knobs.h"
-#include "settings/render_request.h"
-#include "measure/report_svg.h"
 #include "base/number_text.h"
+#include "facet/report.h"
+#include "measure/knobs.h"
+#include "measure/report_svg.h"
+#include "settings/render_request.h"
 
 namespace facet {
 namespace {

@@ -6,7 +6,6 @@
 
 #include "base/markup.h"
 #include "base/number_text.h"
-#include "base/number_text.h"
 
 namespace facet {
 namespace {

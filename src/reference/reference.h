@@ -16,8 +16,8 @@
 
 #include "base/clock.h"
 #include "facet/film.h"
-#include "facet/settings.h"
 #include "facet/scene.h"
+#include "facet/settings.h"
 #include "reference/spread_blocks.h"
 
 namespace facet {

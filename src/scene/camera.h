@@ -4,8 +4,8 @@
 #include <glm/glm.hpp>
 #include <optional>
 
-#include "facet/settings.h"
 #include "facet/scene.h"
+#include "facet/settings.h"
 #include "scene/framing.h"
 #include "scene/pose.h"
 

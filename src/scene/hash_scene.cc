@@ -4,8 +4,8 @@
 
 #include "base/parallel.h"
 #include "base/sha256.h"
-#include "facet/scene.h"
 #include "facet/error.h"
+#include "facet/scene.h"
 
 namespace facet {
 namespace {

@@ -21,21 +21,21 @@ namespace facet {
 struct RenderRequest {
   RenderSettings settings;  // less what LoadInputs() resolves with the files at hand
   DisplaySettings display;
-  ChannelType type = ChannelType::U8;  // of the developed picture
+  ChannelType type = ChannelType::U8;                            // of the developed picture
   std::optional<std::string> scene, camera, animation, variant;  // names or indices
   std::optional<Orbit> orbit;
   std::optional<glm::dvec3> target;
   std::optional<double> fov_degrees;
-  std::optional<std::filesystem::path> environment;  // a picture; none: settings.environment.kind says which
+  std::optional<std::filesystem::path> environment;       // a picture; none: settings.environment.kind says which
   std::map<std::string, std::string, std::less<>> given;  // option name -> text, as given
 
   bool Given(std::string_view option) const { return given.find(option) != given.end(); }
 };
 
 struct RequestOption {
-  std::string_view name;   // without dashes
-  std::string_view group;  // of the help page
-  std::string_view value;  // what stands for the value there
+  std::string_view name;     // without dashes
+  std::string_view group;    // of the help page
+  std::string_view value;    // what stands for the value there
   std::string_view initial;  // the text that means the default; empty: the option's absence means something of its own
   std::string_view description;
   // `where`: what a message calls the option. Throws Error(InvalidUsage).

@@ -8,8 +8,8 @@
 
 #include "base/pages.h"
 #include "facet/image.h"
-#include "facet/settings.h"
 #include "facet/scene.h"
+#include "facet/settings.h"
 
 namespace facet {
 

@@ -4,9 +4,9 @@
 #include <functional>
 
 #include "base/least_limit.h"
-#include "facet/error.h"
 #include "check/manifest.h"
 #include "cli/scratch.h"
+#include "facet/error.h"
 
 namespace facet::test {
 namespace {

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "facet/check.h"
 #include "base/base64.h"
 #include "base/markup.h"
+#include "facet/check.h"
 
 namespace facet::test {
 namespace {

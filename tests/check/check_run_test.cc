@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/input_file.h"
+#include "cli/scratch.h"
 #include "facet/check.h"
 #include "facet/error.h"
 #include "facet/film.h"
@@ -14,7 +15,6 @@
 #include "facet/render.h"
 #include "image/codec.h"
 #include "settings/provenance.h"
-#include "cli/scratch.h"
 
 namespace facet::test {
 namespace {

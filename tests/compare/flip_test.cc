@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "color/srgb.h"
-#include "facet/compare.h"
 #include "compare/flip.h"
 #include "compare/formula_pictures.h"
+#include "facet/compare.h"
 
 namespace facet::test {
 namespace {

@@ -8,9 +8,9 @@
 
 #include "base/parallel.h"
 #include "color/srgb.h"
+#include "compare/formula_pictures.h"
 #include "facet/compare.h"
 #include "facet/error.h"
-#include "compare/formula_pictures.h"
 
 namespace facet::test {
 namespace {

@@ -13,10 +13,10 @@
 #include <utility>
 #include <vector>
 
-#include "facet/scene.h"
 #include "facet/error.h"
 #include "facet/load.h"
 #include "facet/render.h"
+#include "facet/scene.h"
 #include "facet/shader/dispatch.h"
 
 #if defined(__x86_64__)

@@ -8,12 +8,12 @@
 #include <set>
 #include <sstream>
 
-#include "facet/film.h"
-#include "facet/error.h"
-#include "facet/explain.h"
-#include "render/hand_built.h"
 #include "check/manifest.h"
 #include "cli/scratch.h"
+#include "facet/error.h"
+#include "facet/explain.h"
+#include "facet/film.h"
+#include "render/hand_built.h"
 
 namespace facet {
 namespace {
@@ -129,9 +129,8 @@ TEST(Explain, TheShareOfEmissionThatIsBlack) {
   for (const bool as_color : {false, true}) {
     Scene scene;
     // A texel of one of 64 x 64 cells, which lights nine.
-    const TextureRef picture = Ref(AddTexture(scene, Picture(256, 256, [](int x, int y) {
-                                                return glm::u8vec4(x == 128 && y == 128 ? 200 : 0, 0, 0, 255);
-                                              })));
+    const TextureRef picture = Ref(AddTexture(
+        scene, Picture(256, 256, [](int x, int y) { return glm::u8vec4(x == 128 && y == 128 ? 200 : 0, 0, 0, 255); })));
     Material material;
     material.emissive_factor = glm::vec3(1.0f);
     material.emissive_texture = picture;

@@ -16,9 +16,9 @@
 #include "facet/film.h"
 #include "gltf/everything.h"
 #include "image/codec.h"
+#include "measure/sample_error_report.h"
 #include "settings/provenance.h"
 #include "settings/render_request.h"
-#include "measure/sample_error_report.h"
 
 namespace facet::fuzz {
 namespace {

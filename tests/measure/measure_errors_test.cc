@@ -14,9 +14,9 @@
 #include <string>
 #include <vector>
 
+#include "cli/scratch.h"
 #include "facet/error.h"
 #include "image/codec.h"
-#include "cli/scratch.h"
 
 namespace facet::test {
 namespace {

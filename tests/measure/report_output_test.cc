@@ -13,10 +13,10 @@
 #include <string>
 #include <vector>
 
+#include "base/number_text.h"
 #include "facet/error.h"
 #include "measure/knobs.h"
 #include "measure/report_svg.h"
-#include "base/number_text.h"
 #include "measure/sample_error_report.h"
 
 namespace facet::test {

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "base/bytes_text.h"
-#include "facet/film.h"
 #include "facet/error.h"
+#include "facet/film.h"
 #include "facet/load.h"
 #include "render/hand_built.h"
 

@@ -5,8 +5,8 @@
 
 #include <map>
 
-#include "facet/film.h"
 #include "facet/error.h"
+#include "facet/film.h"
 #include "facet/load.h"
 #include "light/studio.h"
 #include "render/hand_built.h"

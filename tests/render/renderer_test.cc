@@ -8,8 +8,8 @@
 #include <string>
 #include <utility>
 
-#include "facet/film.h"
 #include "facet/error.h"
+#include "facet/film.h"
 #include "facet/load.h"
 #include "facet/render.h"
 #include "render/hand_built.h"
