@@ -1,9 +1,7 @@
 // The linear picture that rendering makes, and its way to the display.
 #pragma once
 
-#include <array>
 #include <cstdint>
-#include <filesystem>
 #include <glm/glm.hpp>
 #include <optional>
 #include <vector>
@@ -36,11 +34,5 @@ struct DisplaySettings {
 // exposed but not tone-mapped (the display's background, when given, is put behind it in linear light).
 // 4 channels, straight alpha; 3 channels when a background makes every pixel opaque.
 Image Develop(const Film& film, const DisplaySettings& settings, ChannelType type = ChannelType::U8);
-
-// Writes by extension: .png (U8, U16), .exr and what else OpenImageIO writes. The file appears whole or not at all.
-// `text`: keyword and value pairs, which PNG and EXR hold. Throws Error: InvalidUsage (unknown extension),
-// OutputFailed, MissingModule.
-void WriteImage(const std::filesystem::path& path, const Image& image,
-                const std::vector<std::array<std::string, 2>>& text = {});
 
 }  // namespace facet

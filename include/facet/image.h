@@ -1,8 +1,10 @@
 // Pictures in memory.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -83,5 +85,15 @@ std::shared_ptr<const ImageSource> MakeImageSource(Image image, std::string name
 // Of the line "facet image WIDTH HEIGHT CHANNELS BITS ENCODING\n" (32 bits are floats; srgb or linear) and the pixels
 // as they lie in memory, little-endian, top row first.
 Digest HashImage(const Image& image);
+
+// Loads an image of any format that facet or OpenImageIO reads. `memory_limit`: bytes that it may take; 0: three
+// quarters of what the machine has. Throws Error: NotFound, InvalidInput, OutOfMemory, MissingModule.
+Image LoadImage(const std::filesystem::path& path, std::uint64_t memory_limit = 0);
+
+// Writes by extension: .png (U8, U16), .exr and what else OpenImageIO writes. The file appears whole or not at all.
+// `text`: keyword and value pairs, which PNG and EXR hold. Throws Error: InvalidUsage (unknown extension),
+// OutputFailed, MissingModule.
+void WriteImage(const std::filesystem::path& path, const Image& image,
+                const std::vector<std::array<std::string, 2>>& text = {});
 
 }  // namespace facet

@@ -60,10 +60,6 @@ struct LoadOptions {
 // Throws Error: NotFound, InvalidInput, Unsupported (a required extension, by name), OutOfMemory.
 LoadedScene LoadGltf(const std::filesystem::path& path, const LoadOptions& options = {});
 
-// Loads an image of any format that facet or OpenImageIO reads. `memory_limit`: as in LoadOptions. Throws Error:
-// NotFound, InvalidInput, OutOfMemory, MissingModule.
-Image LoadImage(const std::filesystem::path& path, std::uint64_t memory_limit = 0);
-
 // A picture for EnvironmentSettings::source that is decoded and prepared only where the folder `cache` does not hold
 // what an earlier frame, of any program, prepared from a file of the same bytes with the same settings: the same frame,
 // bit for bit, in less time. The folder is made when something is kept in it; where that fails, RenderStats::warnings

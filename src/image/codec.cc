@@ -10,7 +10,6 @@
 #include "base/input_file.h"
 #include "base/pages.h"
 #include "facet/error.h"
-#include "facet/load.h"
 #include "image/exr_text.h"
 #include "image/format.h"
 #include "image/jpeg.h"

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "facet/error.h"
-#include "facet/film.h"
 #include "image/codec.h"
 #include "image/convert.h"
 #include "image/jpeg.h"
