@@ -116,9 +116,11 @@ TEST_F(CorpusPose, EveryModelKeepsThePromises) {
       const std::string extension = entry.path().extension().string();
       if (extension != ".gltf" && extension != ".glb") continue;
       SCOPED_TRACE(entry.path().filename().string());
+      LoadOptions options;
+      options.ignore_required_extensions = true;
       Scene scene;
       try {
-        scene = LoadGltf(entry.path(), {.ignore_required_extensions = true}).scene;
+        scene = LoadGltf(entry.path(), options).scene;
       } catch (const Error& error) {
         continue;  // what loads is the loader's test
       }
