@@ -29,9 +29,11 @@
 #include "counted_float-inl.h"
 #include "facet/facet.h"
 #include "facet/shader.h"
+#include "light/lighting-inl.h"
+#include "material/models/metallic_roughness-inl.h"
 #include "roofline_kernels.h"
 #include "shade/interpolate-inl.h"
-#include "shade/metallic_roughness-inl.h"
+#include "shade/material_view-inl.h"
 #include "shade/shade_task.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -71,15 +73,14 @@ class Recorder final : public FragmentShader {
   void Shade(const ShadeTask& task) const override {
     for (float* plane : {task.red, task.green, task.blue, task.alpha}) std::fill_n(plane, task.count, 0.0f);
     const FrameMaterial& m = *task.material;
-    const TextureSlot* slot = nullptr;  // the textures of one material share their footprint, or are taken to
-    for (const TextureSlot* s : {&m.base_color_texture, &m.metallic_roughness_texture, &m.normal_texture,
-                                 &m.occlusion_texture, &m.emissive_texture}) {
-      if (s->data != nullptr && slot == nullptr) slot = s;
+    const BoundTexture* texture = nullptr;  // the textures of one material share their footprint, or are taken to
+    for (const BoundTexture& t : m.textures) {
+      if (t.data != nullptr && texture == nullptr) texture = &t;
     }
     const lanes::MaterialView<Counted> material(m);
     const lanes::LightingView<Counted> lighting(*task.lighting);
     for (std::size_t i = 0; i < task.count; ++i) {
-      if (slot != nullptr) Note(*slot, lanes::InterpolateSurface<float>(task, i));
+      if (texture != nullptr) Note(*texture, lanes::InterpolateSurface<float>(task, i));
       if (++fragments % 64 != 0) continue;
       ++counted;
       Count(shading,
@@ -105,7 +106,7 @@ class Recorder final : public FragmentShader {
     sums.roots += double(Counted::roots - roots);
   }
 
-  void Note(const TextureSlot& slot, const lanes::Surface<float>& s) const {
+  void Note(const BoundTexture& slot, const lanes::Surface<float>& s) const {
     if (pyramid.levels == 0) pyramid.Allocate(slot.data->level_width[0], slot.data->level_height[0]);
     const int k = slot.uv_slot;
     const double w = pyramid.width[0], h = pyramid.height[0];

@@ -1,7 +1,26 @@
-# facet_add_shader(TARGET NAME FILE)
+# facet_add_shader(TARGET NAME FILE [PARAMETERS HEADER])
 # Compiles the fragment shader functor NAME of FILE (see facet/shader/shader-inl.h) for every instruction set into TARGET,
 # which links facet::core, and declares facet::MakeNAME() in a header named after FILE: toon.h gives "toon.shader.h".
+# HEADER is for functors that have `NAMEParameters parameters;` as a member: it defines facet::NAMEParameters, and the
+# function becomes MakeNAME(const NAMEParameters&).
 function(facet_add_shader target name file)
+  cmake_parse_arguments(SHADER "" "PARAMETERS" "" ${ARGN})
+  if(SHADER_PARAMETERS)
+    get_filename_component(parameters ${SHADER_PARAMETERS} ABSOLUTE)
+    set(include_parameters "#include \"${parameters}\"")
+    set(taken "const ${name}Parameters& parameters")
+    set(functor "${name}{*static_cast<const ${name}Parameters*>(task.parameters)}")
+    set(kept "${name}Parameters parameters;")
+    set(keep "shader->parameters = parameters;")
+    set(pointer "&parameters")
+  else()
+    set(include_parameters)
+    set(taken)
+    set(functor "${name}()")
+    set(kept)
+    set(keep)
+    set(pointer "nullptr")
+  endif()
   get_filename_component(path ${file} ABSOLUTE)
   get_filename_component(stem ${file} NAME_WE)
   set(folder ${CMAKE_CURRENT_BINARY_DIR}/facet_shaders/${target})
@@ -11,8 +30,9 @@ function(facet_add_shader target name file)
 #pragma once
 #include <memory>
 #include "facet/shader.h"
+@include_parameters@
 namespace facet {
-std::unique_ptr<const FragmentShader> Make@name@();
+std::unique_ptr<const FragmentShader> Make@name@(@taken@);
 }
 ]])
   file(CONFIGURE OUTPUT ${source} @ONLY CONTENT [[// Written by facet_add_shader().
@@ -24,19 +44,27 @@ std::unique_ptr<const FragmentShader> Make@name@();
 #include "facet/shader/shader-inl.h"
 #include "@path@"
 FACET_SHADER_BEGIN
-void Shade@name@(const ShadeTask& task) { ShadePackets(task, @name@()); }
+void Shade@name@(const ShadeTask& task) { ShadePackets(task, @functor@); }
 FACET_SHADER_END
 #if HWY_ONCE
 namespace facet {
 namespace {
 FACET_EXPORT(Shade@name@);
-class @name@Shader final : public FragmentShader {
- public:
-  void Shade(const ShadeTask& task) const override { FACET_DISPATCH(Shade@name@)(task); }
+struct @name@Shader final : FragmentShader {
+  @kept@
+  void Shade(const ShadeTask& task) const override {
+    ShadeTask mine = task;
+    mine.parameters = @pointer@;
+    FACET_DISPATCH(Shade@name@)(mine);
+  }
   LightUse Light() const override { return LightUseOf<HWY_NAMESPACE::@name@>(); }
 };
 }  // namespace
-std::unique_ptr<const FragmentShader> Make@name@() { return std::make_unique<@name@Shader>(); }
+std::unique_ptr<const FragmentShader> Make@name@(@taken@) {
+  auto shader = std::make_unique<@name@Shader>();
+  @keep@
+  return shader;
+}
 }  // namespace facet
 #endif
 ]])

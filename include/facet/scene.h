@@ -56,6 +56,9 @@ struct TextureRef {
 
 enum class AlphaMode : std::uint8_t { Opaque, Mask, Blend };
 
+// How a material turns its parameters into reflection. Unlit (KHR_materials_unlit) shows its base colour as it is.
+enum class ShadingModel : std::uint8_t { MetallicRoughness, Unlit };
+
 struct Material {
   std::string name;
   glm::vec4 base_color_factor{1.0f};  // linear, straight alpha, [0, 1]
@@ -73,7 +76,7 @@ struct Material {
   AlphaMode alpha_mode = AlphaMode::Opaque;
   float alpha_cutoff = 0.5f;  // 0 or more
   bool double_sided = false;
-  bool unlit = false;  // KHR_materials_unlit
+  ShadingModel model = ShadingModel::MetallicRoughness;
 };
 
 // --- Geometry ------------------------------------------------------------------------------------------------------

@@ -1,6 +1,7 @@
 // What a picture is made with: camera, light, approximations, and what is disabled.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <glm/glm.hpp>
@@ -8,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <variant>
+#include <vector>
 
 #include "facet/image.h"
 #include "facet/scene.h"
@@ -140,8 +142,15 @@ struct RenderSettings {
   // False: the frame does what the scene does not need as well, as far as that changes no bit of the picture, to show
   // just that (docs/explain.md says what). Slow, and of no other use.
   bool omit_unused = true;
-  // Replaces the material's shading for every fragment; null: the physically based model. Not owned.
+  // Replaces the shading model of every material; null: the materials' own. Not owned.
   const FragmentShader* shader = nullptr;
+  // The same for single materials, by index of Scene::materials; null, or beyond the end: `shader`. Not owned.
+  std::vector<const FragmentShader*> material_shaders;
+  // Whether some shader is a user's.
+  bool HasShaders() const {
+    const auto given = [](const FragmentShader* s) { return s != nullptr; };
+    return given(shader) || std::any_of(material_shaders.begin(), material_shaders.end(), given);
+  }
   // Called now and then from one of the worker threads with the share that is done, in [0, 1]. May be empty.
   std::function<void(double)> progress;
 };

@@ -59,7 +59,7 @@ Json ToJson(const MaterialSummary& summary) {
           {"alpha_mode", NameOf(material.alpha_mode)},
           {"alpha_cutoff", material.alpha_cutoff},
           {"double_sided", material.double_sided},
-          {"unlit", material.unlit},
+          {"unlit", material.model == ShadingModel::Unlit},
           {"base_color_factor", Array(material.base_color_factor)},
           {"metallic_factor", material.metallic_factor},
           {"roughness_factor", material.roughness_factor},

@@ -4,6 +4,7 @@
 #include <set>
 #include <utility>
 
+#include "material/slots.h"
 #include "scene/camera.h"
 #include "scene/pose.h"
 
@@ -45,16 +46,12 @@ MeshSummary SummarizeMesh(const Mesh& mesh) {
 MaterialSummary SummarizeMaterial(const Material& material) {
   MaterialSummary summary;
   summary.material = &material;
-  const auto add = [&summary](const char* slot, const TextureRef& ref) {
-    if (!ref) return;
+  for (const SlotInfo& slot : kSlots) {
+    const TextureRef& ref = material.*slot.ref;
+    if (!ref) continue;
     const bool transformed = ref.offset != glm::vec2(0.0f) || ref.scale != glm::vec2(1.0f) || ref.rotation != 0.0f;
-    summary.textures.push_back({slot, ref, transformed});
-  };
-  add("base_color", material.base_color_texture);
-  add("metallic_roughness", material.metallic_roughness_texture);
-  add("normal", material.normal_texture);
-  add("occlusion", material.occlusion_texture);
-  add("emissive", material.emissive_texture);
+    summary.textures.push_back({slot.key, ref, transformed});
+  }
   return summary;
 }
 

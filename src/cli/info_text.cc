@@ -92,8 +92,8 @@ std::string Describe(const MaterialSummary& summary) {
     case AlphaMode::Blend: parts.push_back("blended"); break;
   }
   if (material.double_sided) parts.push_back("double-sided");
-  if (material.unlit) parts.push_back("unlit");
-  if (!material.unlit) {
+  if (material.model == ShadingModel::Unlit) parts.push_back("unlit");
+  if (material.model == ShadingModel::MetallicRoughness) {
     parts.push_back(Format("metallic %g", static_cast<double>(material.metallic_factor)));
     parts.push_back(Format("roughness %g", static_cast<double>(material.roughness_factor)));
   }

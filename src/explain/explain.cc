@@ -20,32 +20,27 @@ constexpr int kFewestPairs = 5, kMostPairs = 41;
 constexpr double kSecondsOfPairs = 0.3;  // of a feature, where the fewest do not take longer
 constexpr double kSecondsOfPreparation = 0.5;
 
-constexpr const char* kRoles[5] = {"base-color", "metallic-roughness", "normal", "occlusion", "emission"};
-
-struct MaterialWord {
-  MaterialFeature feature;
-  const char* word;
-};
-constexpr MaterialWord kMaterialWords[] = {
-    {kBaseColorTexture, "base-color-texture"},
-    {kMetallicRoughnessTexture, "metallic-roughness-texture"},
-    {kNormalTexture, "normal-texture"},
-    {kOcclusionTexture, "occlusion"},
-    {kEmission, "emission"},
-    {kAlphaTest, "alpha-test"},
-    {kAlphaBlend, "blending"},
-    {kDoubleSided, "double-sided"},
-};
+// What a material uses, as the words of FeatureWords() have it.
+FeatureSet UsedFeatures(const FrameMaterial& material) {
+  FeatureSet used;
+  ForEachSlot(material.features, [&](Slot slot) { used.Add(InfoOf(slot).feature); });
+  if (material.Has(kEmission)) used.Add(Feature::Emission);
+  if (material.Has(kAlphaTest)) used.Add(Feature::AlphaTest);
+  if (material.Has(kAlphaBlend)) used.Add(Feature::Blending);
+  if (material.vertex_colors) used.Add(Feature::VertexColors);
+  return used;
+}
 
 ExplainedMaterial Describe(const Scene& scene, const PlannedMaterial& planned) {
   ExplainedMaterial material;
   material.index = planned.material;
   if (planned.material >= 0) material.name = scene.materials[std::size_t(planned.material)].name;
   material.lit = planned.frame.Has(kLit);
-  for (const MaterialWord& known : kMaterialWords) {
-    if (planned.frame.Has(known.feature)) material.features.emplace_back(known.word);
+  const FeatureSet used = UsedFeatures(planned.frame);
+  for (const FeatureWord& known : FeatureWords()) {
+    if (used.Has(known.feature)) material.features.emplace_back(known.word);
   }
-  if (planned.frame.vertex_colors) material.features.emplace_back("vertex-colors");
+  if (planned.frame.Has(kDoubleSided)) material.features.emplace_back("double-sided");
   return material;
 }
 
@@ -68,10 +63,11 @@ std::vector<ExplainedTexture> DescribeTextures(const Scene& scene, const FramePl
     const SceneImage& image = scene.images[std::size_t(planned.image)];
     textures[t].image = image.name.empty() ? image.source->Name() : image.name;
     textures[t].file = image.source->Header().value_or(ImageHeader());
-    for (int role = 0; role < 5; ++role) {
-      const bool reads = std::any_of(plan.materials.begin(), plan.materials.end(),
-                                     [&](const PlannedMaterial& m) { return m.textures[role] == static_cast<int>(t); });
-      if (reads) textures[t].roles.emplace_back(kRoles[role]);
+    for (const SlotInfo& slot : kSlots) {
+      const bool reads = std::any_of(plan.materials.begin(), plan.materials.end(), [&](const PlannedMaterial& m) {
+        return m.textures[IndexOf(slot.slot)] == static_cast<int>(t);
+      });
+      if (reads) textures[t].roles.emplace_back(slot.word);
     }
     for (const TextureStats& kept : stats.textures) {
       if (kept.image == planned.image && kept.color == (planned.role == TextureRole::Color)) textures[t].kept = kept;

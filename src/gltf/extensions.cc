@@ -3,16 +3,23 @@
 #include <algorithm>
 #include <map>
 
+#include "material/models/models.h"
+#include "material/parameters.h"
+
 namespace facet::gltf {
 
 bool IsSupported(const std::string& extension) {
   static const char* const kSupported[] = {
       "EXT_mesh_gpu_instancing", "EXT_meshopt_compression", "EXT_texture_webp", "KHR_draco_mesh_compression",
-      "KHR_lights_punctual", "KHR_materials_emissive_strength", "KHR_materials_unlit", "KHR_materials_variants",
-      "KHR_mesh_quantization", "KHR_node_visibility", "KHR_texture_transform",
+      "KHR_lights_punctual", "KHR_materials_variants", "KHR_mesh_quantization", "KHR_node_visibility",
+      "KHR_texture_transform",
       // Only say something about the data; leaving them aside is all that there is to do.
       "FB_ngon_encoding", "KHR_xmp", "KHR_xmp_json_ld"};
-  return std::find(std::begin(kSupported), std::end(kSupported), extension) != std::end(kSupported);
+  bool supported = std::find(std::begin(kSupported), std::end(kSupported), extension) != std::end(kSupported);
+  const auto add = [&](const char* name) { supported = supported || (name != nullptr && extension == name); };
+  for (const ModelInfo& model : kModels) add(model.gltf_extension);
+  ForEachParameter([&](const auto& parameter) { add(parameter.gltf_group); });
+  return supported;
 }
 
 void ReadExtensions(Context& context) {

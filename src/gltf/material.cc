@@ -1,9 +1,11 @@
 #include "gltf/material.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
+#include <map>
+#include <string_view>
 
+#include "material/models/models.h"
+#include "material/parameters.h"
 #include "math/round_to_float.h"
 
 namespace facet::gltf {
@@ -14,68 +16,73 @@ class MaterialReader {
   MaterialReader(const Document& document, const Json& object, const Place& place)
       : texture_count_(document.Count("textures")), object_(object), place_(place) {}
 
-  Material Read() const {
+  Material Read() {
     Material out;
     out.name = NameOf(object_, place_);
-    if (const Json* pbr = LenientObject(object_, "pbrMetallicRoughness", place_)) {
-      const Place pbr_place(place_, "pbrMetallicRoughness");
-      // An opaque colour is often written without its alpha.
-      const auto base_color = LenientNumbers(*pbr, "baseColorFactor", 4, pbr_place, 3);
-      for (std::size_t c = 0; c < base_color.size(); ++c) {
-        out.base_color_factor[static_cast<int>(c)] = Clamp(base_color[c], 1.0, Place(pbr_place, "baseColorFactor"));
-      }
-      out.metallic_factor = Factor(*pbr, "metallicFactor", 1.0, 1.0, pbr_place);
-      out.roughness_factor = Factor(*pbr, "roughnessFactor", 1.0, 1.0, pbr_place);
-      out.base_color_texture = Ref(*pbr, "baseColorTexture", pbr_place);
-      out.metallic_roughness_texture = Ref(*pbr, "metallicRoughnessTexture", pbr_place);
-    }
-    out.normal_texture = Ref(object_, "normalTexture", place_);
-    if (const Json* info = LenientObject(object_, "normalTexture", place_)) {
-      out.normal_scale =
-          RoundToFiniteFloat(LenientNumber(*info, "scale", Place(place_, "normalTexture")).value_or(1.0));
-    }
-    out.occlusion_texture = Ref(object_, "occlusionTexture", place_);
-    if (const Json* info = LenientObject(object_, "occlusionTexture", place_)) {
-      out.occlusion_strength = Factor(*info, "strength", 1.0, 1.0, Place(place_, "occlusionTexture"));
-    }
-    out.emissive_texture = Ref(object_, "emissiveTexture", place_);
-    const auto emissive = LenientNumbers(object_, "emissiveFactor", 3, place_);
-    for (std::size_t c = 0; c < emissive.size(); ++c) {
-      // Above 1 the core specification forbids, but exporters older than KHR_materials_emissive_strength wrote it.
-      out.emissive_factor[static_cast<int>(c)] = Clamp(emissive[c], kUnbounded, Place(place_, "emissiveFactor"));
-    }
-    const std::string alpha_mode = LenientString(object_, "alphaMode", place_).value_or("OPAQUE");
-    if (alpha_mode == "MASK") {
-      out.alpha_mode = AlphaMode::Mask;
-    } else if (alpha_mode == "BLEND") {
-      out.alpha_mode = AlphaMode::Blend;
-    } else if (alpha_mode != "OPAQUE") {
-      Place(place_, "alphaMode").Warn("\"" + alpha_mode + "\" is unknown; OPAQUE is used");
-    }
-    out.alpha_cutoff = Factor(object_, "alphaCutoff", 0.5, kUnbounded, place_);
-    out.double_sided = LenientBool(object_, "doubleSided", place_).value_or(false);
-    out.unlit = ExtensionOf(object_, "KHR_materials_unlit", place_) != nullptr;
-    constexpr const char* kStrength = "KHR_materials_emissive_strength";
-    if (const Json* strength = ExtensionOf(object_, kStrength, place_)) {
-      const Place extensions_place(place_, "extensions");
-      out.emissive_strength =
-          Factor(*strength, "emissiveStrength", 1.0, kUnbounded, Place(extensions_place, kStrength));
-    }
+    const Place extensions_place(place_, "extensions");
+    ForEachParameter([&](const auto& parameter) {
+      auto& value = out.*parameter.member;
+      const char* const name = parameter.gltf_group;
+      if (name == nullptr) return ReadValue(object_, place_, parameter, value);
+      const Place group_place(IsExtension(name) ? extensions_place : place_, name);
+      if (const Json* group = Group(name)) ReadValue(*group, group_place, parameter, value);
+    });
     return out;
   }
 
  private:
-  static constexpr double kUnbounded = std::numeric_limits<double>::infinity();
+  static bool IsExtension(std::string_view group) { return group.find('_') != group.npos; }
 
-  // Into [0, high].
-  static float Clamp(double value, double high, const Place& where) {
-    const double clamped = std::min(std::max(value, 0.0), high);
+  // An object within the material, or an extension of it; null where there is none. What is wrong with it is said once.
+  const Json* Group(const char* name) {
+    const auto [known, is_new] = groups_.try_emplace(name);
+    if (is_new) known->second = (IsExtension(name) ? ExtensionOf : LenientObject)(object_, name, place_);
+    return known->second;
+  }
+
+  // Into the range, with a warning.
+  static float Clamp(double value, ParameterRange range, const Place& where) {
+    const double clamped = std::min(std::max(value, double{range.low}), double{range.high});
     if (clamped != value) where.Warn("a number outside of its range was clamped");
     return RoundToFiniteFloat(clamped);
   }
 
-  static float Factor(const Json& object, const char* key, double otherwise, double high, const Place& place) {
-    return Clamp(LenientNumber(object, key, place).value_or(otherwise), high, Place(place, key));
+  void ReadValue(const Json& object, const Place& place, const Parameter<float>& parameter, float& out) const {
+    const auto value = LenientNumber(object, parameter.gltf_name, place);
+    if (value) out = Clamp(*value, parameter.range, Place(place, parameter.gltf_name));
+  }
+  template <int kLength>
+  void ReadValue(const Json& object, const Place& place, const Parameter<glm::vec<kLength, float>>& parameter,
+                 glm::vec<kLength, float>& out) const {
+    // A colour with alpha is often written without it.
+    const auto values = LenientNumbers(object, parameter.gltf_name, kLength, place, kLength == 4 ? 3 : kLength);
+    for (std::size_t c = 0; c < values.size(); ++c) {
+      out[static_cast<int>(c)] = Clamp(values[c], parameter.range, Place(place, parameter.gltf_name));
+    }
+  }
+  void ReadValue(const Json& object, const Place& place, const Parameter<bool>& parameter, bool& out) const {
+    out = LenientBool(object, parameter.gltf_name, place).value_or(out);
+  }
+  void ReadValue(const Json& object, const Place& place, const Parameter<AlphaMode>& parameter, AlphaMode& out) const {
+    const std::string mode = LenientString(object, parameter.gltf_name, place).value_or("OPAQUE");
+    if (mode == "MASK") {
+      out = AlphaMode::Mask;
+    } else if (mode == "BLEND") {
+      out = AlphaMode::Blend;
+    } else if (mode != "OPAQUE") {
+      Place(place, parameter.gltf_name).Warn("\"" + mode + "\" is unknown; OPAQUE is used");
+    }
+  }
+  void ReadValue(const Json& object, const Place& place, const Parameter<ShadingModel>&, ShadingModel& out) const {
+    for (const ModelInfo& model : kModels) {
+      const char* const extension = model.gltf_extension;
+      if (extension != nullptr && ExtensionOf(object, extension, place) != nullptr) out = model.model;
+    }
+  }
+  void ReadValue(const Json& object, const Place& place, const Parameter<TextureRef>& parameter, TextureRef& out) {
+    const char* const name = parameter.gltf_name;
+    const Json* info = &object == &object_ ? Group(name) : LenientObject(object, name, place);
+    if (info) out = ReadRef(*info, Place(place, name));
   }
 
   static void SetTexCoord(const Json& object, const Place& place, TextureRef& ref) {
@@ -84,16 +91,13 @@ class MaterialReader {
     if (set >= 0) ref.tex_coord = set;
   }
 
-  TextureRef Ref(const Json& object, const char* key, const Place& place) const {
+  TextureRef ReadRef(const Json& info, const Place& info_place) const {
     TextureRef ref;
-    const Json* info = LenientObject(object, key, place);
-    if (!info) return ref;
-    const Place info_place(place, key);
-    if (!Find(*info, "index")) info_place.Warn("ignored: \"index\" is missing");
-    ref.texture = LenientIndex(*info, "index", texture_count_, "textures", info_place);
-    SetTexCoord(*info, info_place, ref);
+    if (!Find(info, "index")) info_place.Warn("ignored: \"index\" is missing");
+    ref.texture = LenientIndex(info, "index", texture_count_, "textures", info_place);
+    SetTexCoord(info, info_place, ref);
     constexpr const char* kTransform = "KHR_texture_transform";
-    const Json* transform = ExtensionOf(*info, kTransform, info_place);
+    const Json* transform = ExtensionOf(info, kTransform, info_place);
     if (!transform) return ref;
     const Place extensions_place(info_place, "extensions");
     const Place transform_place(extensions_place, kTransform);
@@ -109,6 +113,7 @@ class MaterialReader {
   const std::size_t texture_count_;
   const Json& object_;
   const Place& place_;
+  std::map<std::string_view, const Json*> groups_;  // that were asked for
 };
 
 }  // namespace

@@ -9,7 +9,7 @@
 
 #include "light/environment-inl.h"
 #include "light/lighting.h"
-#include "material/closure-inl.h"
+#include "material/lobes/lobe-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace facet {

@@ -1,26 +1,30 @@
 #include "material/features.h"
 
+#include "material/models/models.h"
+#include "material/slots.h"
+
 namespace facet {
 
 MaterialFeatures FeaturesOf(const Material& m, bool on_surface) {
+  const ModelInfo& model = InfoOf(m.model);
+  const bool lit = model.reads_light && on_surface;
   MaterialFeatures features = 0;
-  const auto set = [&features](bool condition, MaterialFeature bit) {
+  const auto set = [&features](bool condition, MaterialFeatures bit) {
     if (condition) features |= bit;
   };
-  set(bool(m.base_color_texture), kBaseColorTexture);
   set(m.alpha_mode == AlphaMode::Mask, kAlphaTest);
   set(m.alpha_mode == AlphaMode::Blend, kAlphaBlend);
   set(m.double_sided, kDoubleSided);
-  if (m.unlit) return features;
-  const bool emits = m.emissive_strength != 0.0f && m.emissive_factor != glm::vec3(0.0f);
-  set(emits, kEmission);
-  set(emits && bool(m.emissive_texture), kEmissiveTexture);
-  if (!on_surface) return features;
-  set(true, kLit);
-  set(bool(m.metallic_roughness_texture) && (m.metallic_factor != 0.0f || m.roughness_factor != 0.0f),
-      kMetallicRoughnessTexture);
-  set(bool(m.normal_texture), kNormalTexture);
-  set(bool(m.occlusion_texture) && m.occlusion_strength != 0.0f, kOcclusionTexture);
+  set(lit, kLit);
+  set((model.texture_slots & BitOf(Slot::Emissive)) != 0 && Emits(m), kEmission);
+  for (const SlotInfo& slot : kSlots) {
+    const bool is_read = (model.texture_slots & BitOf(slot.slot)) != 0 && (lit || !slot.needs_light);
+    const bool is_seen = bool(m.*slot.ref) && is_read && slot.is_visible(m);
+    set(is_seen, BitOf(slot.slot));
+    set(is_seen && slot.tangent_space, kTangentSpace);
+  }
+  const bool is_metal = m.metallic_factor == 1.0f && (features & BitOf(Slot::MetallicRoughness)) == 0;
+  set(lit && !is_metal, kDiffuseLobe);
   return features;
 }
 

@@ -1,4 +1,4 @@
-// What of the material model a given material uses: the rest costs nothing.
+// What of its model a given material uses: the rest costs nothing.
 #pragma once
 
 #include <cstdint>
@@ -7,20 +7,20 @@
 
 namespace facet {
 
-// Bits of a mask. A bit that is clear means that leaving the feature out gives the same picture, bit for bit.
-enum MaterialFeature : std::uint32_t {
-  kBaseColorTexture = 1u << 0,
-  kMetallicRoughnessTexture = 1u << 1,
-  kNormalTexture = 1u << 2,
-  kOcclusionTexture = 1u << 3,
-  kEmissiveTexture = 1u << 4,
-  kEmission = 1u << 5,    // emissive factor and strength are not both zero
-  kLit = 1u << 6,         // not KHR_materials_unlit, nor points and lines without normals
-  kAlphaTest = 1u << 7,   // MASK
-  kAlphaBlend = 1u << 8,  // BLEND
-  kDoubleSided = 1u << 9,
+// Bits of a mask. A bit that is clear means that leaving the feature out gives the same picture, bit for bit. The low
+// bits belong to the texture slots (BitOf() in material/slots.h).
+enum MaterialFeature : std::uint64_t {
+  kFirstFeature = std::uint64_t{1} << 40,
+  kEmission = kFirstFeature << 0,  // emissive factor and strength are not both zero
+  kLit = kFirstFeature << 1,  // the model reads light, and there is a surface: not points and lines without normals
+  kAlphaTest = kFirstFeature << 2,   // MASK
+  kAlphaBlend = kFirstFeature << 3,  // BLEND
+  kDoubleSided = kFirstFeature << 4,
+  kTangentSpace = kFirstFeature << 5,  // some texture is read in tangent space
+  kDiffuseLobe = kFirstFeature << 6,   // not all of it is metal
+  kLobes = kDiffuseLobe,               // all of a closure's that a material may lack
 };
-using MaterialFeatures = std::uint32_t;
+using MaterialFeatures = std::uint64_t;
 
 // Textures whose factor makes them invisible (an emissive texture with factor 0, occlusion of strength 0) are not
 // counted, nor those that an unlit material ignores. A normal texture counts whatever its scale.

@@ -47,47 +47,35 @@ class Planner {
     f.features = FeaturesOf(material, on_surface);
     f.vertex_colors = colors;
     f.alpha_mode = material.alpha_mode;
-    for (int i = 0; i < 4; ++i) f.base_color[i] = material.base_color_factor[i];
-    f.metallic = material.metallic_factor;
-    f.perceptual_roughness = material.roughness_factor;
-    f.normal_scale = material.normal_scale;
-    f.occlusion_strength = material.occlusion_strength;
-    for (int i = 0; i < 3; ++i) f.emissive[i] = material.emissive_factor[i] * material.emissive_strength;
-    f.alpha_cutoff = material.alpha_cutoff;
-
-    struct Use {
-      const TextureRef& ref;
-      MaterialFeature feature;
-      TextureRole role;
-      int channels;
-      TextureSlot& slot;
-    };
-    const int base_channels = material.alpha_mode == AlphaMode::Opaque ? kRgb : kRgba;
-    const Use uses[5] = {
-        {material.base_color_texture, kBaseColorTexture, TextureRole::Color, base_channels, f.base_color_texture},
-        {material.metallic_roughness_texture, kMetallicRoughnessTexture, TextureRole::Data, kG | kB,
-         f.metallic_roughness_texture},
-        {material.normal_texture, kNormalTexture, TextureRole::Data, kRgb, f.normal_texture},
-        {material.occlusion_texture, kOcclusionTexture, TextureRole::Data, kR, f.occlusion_texture},
-        {material.emissive_texture, kEmissiveTexture, TextureRole::Color, kRgb, f.emissive_texture},
-    };
-    for (int i = 0; i < 5; ++i) {
-      const Use& use = uses[i];
-      if (!f.Has(use.feature)) continue;
-      const Texture& texture = scene_.textures[std::size_t(use.ref.texture)];
-      if (texture.image < 0) {
-        f.features &= ~std::uint32_t{use.feature};
-        continue;
-      }
-      use.slot.sampler = texture.sampler;
-      use.slot.sampler.mip = std::min(texture.sampler.mip, settings_.mip_filter);
-      planned.textures[i] = TextureFor(texture.image, use.role, use.slot.sampler.mip != MipFilter::None, use.channels,
-                                       use.feature == kEmissiveTexture);
-      use.slot.max_anisotropy = static_cast<float>(settings_.max_anisotropy);
-      use.slot.uv_slot = SlotFor(f, use.ref.tex_coord);
-      SetTransform(use.ref, use.slot);
-    }
+    f.factors = FactorsOf(material);
+    f.model = f.Has(kLit) ? material.model : ShadingModel::Unlit;
+    const auto i = std::size_t(index);
+    const bool has_own =
+        index >= 0 && i < settings_.material_shaders.size() && settings_.material_shaders[i] != nullptr;
+    f.shader = has_own ? settings_.material_shaders[i] : settings_.shader;
+    ForEachSlot(f.features, [&](Slot slot) { BindTexture(material, slot, planned); });
     return planned;
+  }
+
+  void BindTexture(const Material& material, Slot slot, PlannedMaterial& planned) {
+    const SlotInfo& info = InfoOf(slot);
+    const TextureRef& ref = material.*info.ref;
+    const Texture& texture = scene_.textures[std::size_t(ref.texture)];
+    FrameMaterial& f = planned.frame;
+    if (texture.image < 0) {
+      f.features &= ~BitOf(slot);
+      return;
+    }
+    BoundTexture& bound = f.textures[IndexOf(slot)];
+    bound.sampler = texture.sampler;
+    bound.sampler.mip = std::min(texture.sampler.mip, settings_.mip_filter);
+    const bool reads_alpha = !info.alpha_is_coverage || material.alpha_mode != AlphaMode::Opaque;
+    planned.textures[IndexOf(slot)] =
+        TextureFor(texture.image, info.role, bound.sampler.mip != MipFilter::None,
+                   reads_alpha ? info.channels : info.channels & kRgb, slot == Slot::Emissive);
+    bound.max_anisotropy = static_cast<float>(settings_.max_anisotropy);
+    bound.uv_slot = UvSlotFor(f, ref.tex_coord);
+    SetTransform(ref, bound);
   }
 
   // What the settings leave out, as if the file did not state it.
@@ -97,15 +85,11 @@ class Planner {
       stated.Add(feature);
       if (settings_.without.Has(feature)) remove();
     };
-    const auto texture = [&](Feature feature, TextureRef& ref) { leave_out(feature, bool(ref), [&ref] { ref = {}; }); };
-    texture(Feature::BaseColorTexture, m.base_color_texture);
-    texture(Feature::MetallicRoughnessTexture, m.metallic_roughness_texture);
-    texture(Feature::NormalTexture, m.normal_texture);
-    texture(Feature::Occlusion, m.occlusion_texture);
-    leave_out(Feature::Emission, m.emissive_factor != glm::vec3(0.0f) || m.emissive_texture, [&m] {
-      m.emissive_factor = glm::vec3(0.0f);
-      m.emissive_texture = {};
-    });
+    for (const SlotInfo& slot : kSlots) {
+      TextureRef& ref = m.*slot.ref;
+      leave_out(slot.feature, bool(ref), [&ref] { ref = {}; });
+    }
+    leave_out(Feature::Emission, m.emissive_factor != glm::vec3(0.0f), [&m] { m.emissive_factor = glm::vec3(0.0f); });
     leave_out(Feature::VertexColors, colors, [&colors] { colors = false; });
     const auto opaque = [&m] { m.alpha_mode = AlphaMode::Opaque; };
     leave_out(Feature::AlphaTest, m.alpha_mode == AlphaMode::Mask, opaque);
@@ -122,7 +106,7 @@ class Planner {
     return known->second;
   }
 
-  static int SlotFor(FrameMaterial& material, int tex_coord) {
+  static int UvSlotFor(FrameMaterial& material, int tex_coord) {
     for (int i = 0; i < material.uv_slots; ++i) {
       if (material.uv_sets[i] == tex_coord) return i;
     }
@@ -172,41 +156,42 @@ FramePlan MakeFramePlan(const Scene& scene, const PosedScene& posed, const Rende
     return std::any_of(plan.materials.begin(), plan.materials.end(),
                        [&](const PlannedMaterial& m) { return predicate(m.frame); });
   };
-  const auto any_has = [&](MaterialFeature feature) {
+  const auto any_has = [&](MaterialFeatures feature) {
     return any([&](const FrameMaterial& m) { return m.Has(feature); });
   };
   const auto asked_out = [&](Feature feature) { return settings.without.Has(feature); };
   // Either the frame uses it, or it is left out, and here is why.
-  const auto decide = [&](bool used, Feature feature, const char* what, const char* why) {
+  const auto decide = [&](bool used, Feature feature, const std::string& what, const char* why) {
     if (used) {
       plan.uses.Add(feature);
     } else {
-      plan.left_out.push_back(std::string(what) + ": " + why);
+      plan.left_out.push_back(what + ": " + why);
     }
   };
   // The same for what materials state: `none` is why where no drawn material does.
-  const auto decide_of_materials = [&](bool used, Feature feature, const char* what, const char* none) {
+  const auto decide_of_materials = [&](bool used, Feature feature, const std::string& what, const char* none) {
     decide(used, feature, what,
            !planner.stated.Has(feature) ? none
            : asked_out(feature)         ? kOnRequest
                                         : "shows nothing: unlit materials, factors of 0 or textures without a picture");
   };
 
-  decide_of_materials(any_has(kBaseColorTexture), Feature::BaseColorTexture, "base colour textures",
-                      "no drawn material has one");
-  decide_of_materials(any_has(kMetallicRoughnessTexture), Feature::MetallicRoughnessTexture,
-                      "metallic-roughness textures", "no drawn material has one");
-  decide_of_materials(any_has(kNormalTexture), Feature::NormalTexture, "normal textures", "no drawn material has one");
-  if (!plan.uses.Has(Feature::NormalTexture)) plan.left_out.emplace_back("tangents: no normal texture is read");
-  decide_of_materials(any_has(kOcclusionTexture), Feature::Occlusion, "occlusion textures",
-                      "no drawn material has one");
+  for (const SlotInfo& slot : kSlots) {
+    if (slot.feature == Feature::Emission) continue;  // which is a factor first of all
+    decide_of_materials(any_has(BitOf(slot.slot)), slot.feature, std::string(slot.name) + "s",
+                        "no drawn material has one");
+  }
+  if (!any_has(kTangentSpace)) plan.left_out.emplace_back("tangents: no normal texture is read");
   decide_of_materials(any_has(kEmission), Feature::Emission, "emission", "no drawn material emits");
   decide_of_materials(any([](const FrameMaterial& m) { return m.vertex_colors; }), Feature::VertexColors,
                       "vertex colours", "no drawn geometry has them");
 
-  const LightUse light_use = settings.shader != nullptr ? settings.shader->Light() : LightUse::LitMaterials;
-  const bool lit = light_use == LightUse::EveryMaterial || (light_use == LightUse::LitMaterials && any_has(kLit));
-  const char* const unlit = light_use == LightUse::None ? "the shader reads no light" : "no lit material";
+  const auto reads_light = [](const FrameMaterial& m) {
+    const LightUse use = m.shader != nullptr ? m.shader->Light() : LightUse::LitMaterials;
+    return use == LightUse::EveryMaterial || (use == LightUse::LitMaterials && m.Has(kLit));
+  };
+  const bool lit = any(reads_light);
+  const char* const unlit = any_has(kLit) ? "the shader reads no light" : "no lit material";
   const bool has_environment = settings.environment.kind != EnvironmentSettings::Kind::None;
   plan.environment_light = lit && has_environment && !asked_out(Feature::EnvironmentLight);
   plan.environment_background = settings.background == Background::Environment && has_environment;

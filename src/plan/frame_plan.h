@@ -1,6 +1,7 @@
 // What this scene with these settings needs, and what it leaves out. Made once a frame, obeyed by every stage.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -29,8 +30,13 @@ struct PlannedMaterial {
   int material = -1;           // index into Scene::materials; -1: glTF's default
   bool vertex_colors = false;  // the geometry has colours
   FrameMaterial frame;         // texture slots still empty
-  // Index into FramePlan::textures for base colour, metallic-roughness, normal, occlusion, emission; -1: none.
-  int textures[5] = {-1, -1, -1, -1, -1};
+  std::array<int, kSlotCount> textures = NoTextures();  // by Slot: index into FramePlan::textures; -1: none
+
+  static constexpr std::array<int, kSlotCount> NoTextures() {
+    std::array<int, kSlotCount> none{};
+    none.fill(-1);
+    return none;
+  }
 };
 
 struct FramePlan {

@@ -17,22 +17,13 @@ int WhiteTexture(TextureRole role, FramePlan& plan) {
 
 void UseWhiteTextures(PlannedMaterial& material, FramePlan& plan) {
   FrameMaterial& f = material.frame;
-  struct Use {
-    MaterialFeatures features;
-    TextureRole role;
-    TextureSlot* slot;  // null: there is no neutral texture of this kind
-  };
-  const Use uses[5] = {{kBaseColorTexture, TextureRole::Color, &f.base_color_texture},
-                       {kMetallicRoughnessTexture, TextureRole::Data, &f.metallic_roughness_texture},
-                       {kNormalTexture, TextureRole::Data, nullptr},
-                       {kOcclusionTexture, TextureRole::Data, &f.occlusion_texture},
-                       {kEmissiveTexture | kEmission, TextureRole::Color, &f.emissive_texture}};
-  for (int i = 0; i < 5; ++i) {
-    if (uses[i].slot == nullptr || material.textures[i] >= 0 || (i > 0 && !f.Has(kLit))) continue;
+  for (const SlotInfo& slot : kSlots) {
+    const std::size_t i = IndexOf(slot.slot);
+    if (!slot.white_is_neutral || material.textures[i] >= 0 || (slot.slot != Slot::BaseColor && !f.Has(kLit))) continue;
     if (f.uv_slots == 0) f.uv_slots = 1;  // TEXCOORD_0, zeros where there is none: one texel is the same everywhere
-    f.features |= uses[i].features;
-    *uses[i].slot = TextureSlot();
-    material.textures[i] = WhiteTexture(uses[i].role, plan);
+    f.features |= BitOf(slot.slot) | (slot.slot == Slot::Emissive ? kEmission : MaterialFeatures{0});
+    f.textures[i] = BoundTexture();
+    material.textures[i] = WhiteTexture(slot.role, plan);
   }
 }
 
@@ -46,7 +37,7 @@ void UseEverything(const RenderSettings& settings, FramePlan& plan) {
       FrameMaterial& f = material.frame;
       if (f.alpha_mode != AlphaMode::Opaque) continue;
       f.alpha_mode = AlphaMode::Mask;
-      f.alpha_cutoff = -std::numeric_limits<float>::infinity();
+      f.factors.alpha_cutoff = -std::numeric_limits<float>::infinity();
       f.features |= kAlphaTest;
       plan.alpha_test = true;
     }

@@ -6,27 +6,20 @@
 #include "facet/error.h"
 
 namespace facet {
-namespace {
-
-constexpr MaterialFeature kFeatureOfUse[5] = {kBaseColorTexture, kMetallicRoughnessTexture, kNormalTexture,
-                                              kOcclusionTexture, kEmissiveTexture};
-
-}  // namespace
-
-glm::dvec4 ExactMaterial::Read(int use, const SurfacePoint& point) const {
-  const Use& u = uses_[use];
+glm::dvec4 ExactMaterial::Read(Slot slot, const SurfacePoint& point) const {
+  const Use& u = uses_[IndexOf(slot)];
   return u.texels->Sample(u.transform(point.Uv(u.tex_coord)), u.sampler);
 }
 
 glm::dvec4 ExactMaterial::BaseColor(const SurfacePoint& point) const {
   glm::dvec4 color(material_.base_color_factor);
   if (vertex_colors_) color *= point.color;
-  return Has(kBaseColorTexture) ? color * Read(0, point) : color;
+  return Has(BitOf(Slot::BaseColor)) ? color * Read(Slot::BaseColor, point) : color;
 }
 
 glm::dvec3 ExactMaterial::Normal(const SurfacePoint& point) const {
-  if (!Has(kNormalTexture)) return point.normal;
-  const glm::dvec3 texel = glm::dvec3(Read(2, point)) * 2.0 - 1.0;
+  if (!Has(BitOf(Slot::Normal))) return point.normal;
+  const glm::dvec3 texel = glm::dvec3(Read(Slot::Normal, point)) * 2.0 - 1.0;
   const double scale = double(material_.normal_scale);
   const glm::dvec3 tangent(point.tangent);
   const glm::dvec3 bitangent = glm::cross(point.interpolated_normal, tangent) * point.tangent.w;
@@ -39,13 +32,14 @@ ShadingInputs ExactMaterial::Inputs(const SurfacePoint& point, const glm::dvec3&
   in.base_color = base_color;
   in.metallic = double(material_.metallic_factor);
   in.perceptual_roughness = double(material_.roughness_factor);
-  if (Has(kMetallicRoughnessTexture)) {
-    const glm::dvec4 texel = Read(1, point);
+  if (Has(BitOf(Slot::MetallicRoughness))) {
+    const glm::dvec4 texel = Read(Slot::MetallicRoughness, point);
     in.perceptual_roughness *= texel.y;
     in.metallic *= texel.z;
   }
   in.normal = Normal(point);
-  if (Has(kOcclusionTexture)) in.occlusion = 1.0 + double(material_.occlusion_strength) * (Read(3, point).x - 1.0);
+  if (Has(BitOf(Slot::Occlusion)))
+    in.occlusion = 1.0 + double(material_.occlusion_strength) * (Read(Slot::Occlusion, point).x - 1.0);
   in.emissive = Emission(point);
   return in;
 }
@@ -53,7 +47,7 @@ ShadingInputs ExactMaterial::Inputs(const SurfacePoint& point, const glm::dvec3&
 glm::dvec3 ExactMaterial::Emission(const SurfacePoint& point) const {
   if (!Has(kEmission)) return glm::dvec3(0.0);
   const glm::dvec3 emission = glm::dvec3(material_.emissive_factor) * double(material_.emissive_strength);
-  return Has(kEmissiveTexture) ? emission * glm::dvec3(Read(4, point)) : emission;
+  return Has(BitOf(Slot::Emissive)) ? emission * glm::dvec3(Read(Slot::Emissive, point)) : emission;
 }
 
 std::vector<ExactMaterial> MakeExactMaterials(const Scene& scene, const FramePlan& plan,
@@ -93,13 +87,13 @@ std::vector<ExactMaterial> MakeExactMaterials(const Scene& scene, const FramePla
     to.material_.alpha_mode = planned.frame.alpha_mode;
     to.vertex_colors_ = planned.frame.vertex_colors;
     const Material& from = to.material_;
-    const TextureRef* refs[5] = {&from.base_color_texture, &from.metallic_roughness_texture, &from.normal_texture,
-                                 &from.occlusion_texture, &from.emissive_texture};
-    for (int i = 0; i < 5; ++i) {
-      if (planned.textures[i] < 0) continue;
-      to.uses_[i] = {textures[std::size_t(planned.textures[i])], scene.textures[std::size_t(refs[i]->texture)].sampler,
-                     refs[i]->tex_coord, UvTransform(*refs[i])};
-      if (to.uses_[i].texels == nullptr) to.features_ &= ~MaterialFeatures{kFeatureOfUse[i]};
+    for (const SlotInfo& slot : kSlots) {
+      const int texture = planned.textures[IndexOf(slot.slot)];
+      if (texture < 0) continue;
+      const TextureRef& ref = from.*slot.ref;
+      to.uses_[IndexOf(slot.slot)] = {textures[std::size_t(texture)], scene.textures[std::size_t(ref.texture)].sampler,
+                                      ref.tex_coord, UvTransform(ref)};
+      if (textures[std::size_t(texture)] == nullptr) to.features_ &= ~BitOf(slot.slot);
     }
   }
   return result;

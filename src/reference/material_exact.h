@@ -43,14 +43,14 @@ class ExactMaterial {
     int tex_coord = 0;
     UvTransform transform{TextureRef{}};
   };
-  bool Has(MaterialFeature feature) const { return (features_ & feature) != 0; }
-  glm::dvec4 Read(int use, const SurfacePoint& point) const;
+  bool Has(MaterialFeatures feature) const { return (features_ & feature) != 0; }
+  glm::dvec4 Read(Slot slot, const SurfacePoint& point) const;
   glm::dvec3 Normal(const SurfacePoint& point) const;
 
   MaterialFeatures features_ = 0;
   bool vertex_colors_ = false;
   Material material_;
-  Use uses_[5];  // in the order of PlannedMaterial::textures
+  Use uses_[kSlotCount];  // by Slot
 };
 
 // One for each of the plan's materials. An image that cannot be decoded is done without, and `notes` says so, as in the

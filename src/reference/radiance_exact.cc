@@ -92,11 +92,11 @@ glm::dvec3 SampleCosine(const glm::dvec2& random) {
   return {OnCircle(random.x) * std::sqrt(random.y), std::sqrt(std::max(1.0 - random.y, 0.0))};
 }
 
-glm::dvec3 ReflectedEnvironment(const lanes::MetallicRoughnessClosure<double>& closure, const ExactLighting& lighting,
+glm::dvec3 ReflectedEnvironment(const lanes::Closure<double>& closure, const ExactLighting& lighting,
                                 const ExactLight& light, const SampleRun& run) {
   const ExactEnvironment& environment = *light.environment;
-  const Frame frame(FromLanes(closure.normal));
-  const SpecularLobe lobe(frame.ToLocal(FromLanes(closure.view)), closure.alpha);
+  const Frame frame(FromLanes(closure.at.normal));
+  const SpecularLobe lobe(frame.ToLocal(FromLanes(closure.at.view)), closure.specular.alpha);
   glm::dvec3 sum(0.0);
   const auto add = [&](const ExactEnvironment::Light& from, const glm::dvec3& local) {
     if (!(local.z > 0.0)) return;

@@ -48,7 +48,7 @@ void CheckSettings(const RenderSettings& settings, const ReferenceSettings& refe
     throw Error(ErrorCode::InvalidUsage, "no environment picture", "reference settings",
                 "set environment.image, environment.source or another environment.kind");
   }
-  if (settings.shader != nullptr) {
+  if (settings.HasShaders()) {
     throw Error(ErrorCode::InvalidUsage, "a fragment shader of one's own", "reference settings",
                 "the reference has glTF's material model alone");
   }

@@ -85,13 +85,13 @@ std::string WhyNothingIsLit(const FramePlan& plan, const std::vector<bool>& mate
                             const RenderSettings& settings) {
   const bool environment_shines = plan.environment_light && settings.environment.intensity > 0.0;
   if (any_light || environment_shines) return {};
-  if (settings.shader != nullptr && settings.shader->Light() == LightUse::None) return {};
   const auto asked_out = [&](Feature feature) { return settings.without.Has(feature); };
   if (asked_out(Feature::EnvironmentLight) || asked_out(Feature::PunctualLights)) return {};
   bool any_dark = false;
   for (std::size_t m = 0; m < plan.materials.size(); ++m) {
     const FrameMaterial& material = plan.materials[m].frame;
-    any_dark = any_dark || (material_visible[m] && material.Has(kLit) && !material.Has(kEmission));
+    const bool reads_none = material.shader != nullptr && material.shader->Light() == LightUse::None;
+    any_dark = any_dark || (material_visible[m] && material.Has(kLit) && !material.Has(kEmission) && !reads_none);
   }
   if (!any_dark) return {};
   const bool has_environment = settings.environment.kind != EnvironmentSettings::Kind::None;

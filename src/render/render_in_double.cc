@@ -7,7 +7,7 @@
 namespace facet {
 
 Film RenderInDouble(const Scene& scene, const RenderSettings& settings) {
-  if (settings.shader != nullptr) {
+  if (settings.HasShaders()) {
     throw Error(ErrorCode::InvalidUsage, "a shader of one's own has no form in double", "render settings");
   }
   const auto shader = MakeDoubleShader();

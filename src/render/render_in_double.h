@@ -7,7 +7,7 @@
 namespace facet {
 
 // Render(), with every fragment shaded in double (see shade/shade_in_double.h): its difference to Render()'s film is
-// the rounding error. `settings.shader` must be null. Throws what Render() throws, and InvalidUsage for a shader.
+// the rounding error. The settings have no shaders. Throws what Render() throws, and InvalidUsage for a shader.
 Film RenderInDouble(const Scene& scene, const RenderSettings& settings);
 
 }  // namespace facet

@@ -172,17 +172,13 @@ void DecodeTextures(const Scene& scene, const std::vector<bool>& material_visibl
     if (!entry.problem.empty() && !textures_of[std::size_t(image)].empty()) --stats.images_decoded;
   }
 
-  constexpr MaterialFeature kFeatures[5] = {kBaseColorTexture, kMetallicRoughnessTexture, kNormalTexture,
-                                            kOcclusionTexture, kEmissiveTexture};
   for (PlannedMaterial& material : plan.materials) {
     FrameMaterial& f = material.frame;
-    TextureSlot* const slots[5] = {&f.base_color_texture, &f.metallic_roughness_texture, &f.normal_texture,
-                                   &f.occlusion_texture, &f.emissive_texture};
-    for (int i = 0; i < 5; ++i) {
-      if (material.textures[i] < 0) continue;
-      slots[i]->data = textures.entries[std::size_t(material.textures[i])].data.get();
-      if (slots[i]->data == nullptr) f.features &= ~std::uint32_t{kFeatures[i]};
-    }
+    ForEachSlot(f.features, [&](Slot slot) {
+      const TextureData* const data = textures.entries[std::size_t(material.textures[IndexOf(slot)])].data.get();
+      f.textures[IndexOf(slot)].data = data;
+      if (data == nullptr) f.features &= ~BitOf(slot);
+    });
   }
 }
 

@@ -66,7 +66,7 @@ class TileCharge {
 
   // A pointer, a number, a setup and its place; a fragment's own numbers, those that its shading needs, its place in
   // the order of layers. The vectors grow by half of these on average.
-  static constexpr std::size_t kPerRecord = 40 + SetupLayout::kStride * sizeof(float), kPerFragment = 120;
+  static constexpr std::size_t kPerRecord = 40 + SetupLayout::kMostStride * sizeof(float), kPerFragment = 120;
 
   std::size_t records_ = std::size_t{1} << 14, fragments_ = std::size_t{1} << 16;
   std::vector<MemoryLease> leases_;
@@ -197,7 +197,7 @@ class TileWorker final : public RecordTable {
       const TriangleChunk& chunk = in_.geometry.chunks[run.chunk];
       const int material = in_.geometry.drawables[chunk.drawable].material;
       FrameMaterial m = in_.plan.materials[std::size_t(material)].frame;
-      m.features &= ~std::uint32_t{kLit | kNormalTexture};  // alpha needs neither place nor direction
+      m.features &= ~(kLit | kTangentSpace);  // alpha needs neither place nor direction
       for (std::uint32_t first = run.begin; first < run.end; first += kBatch) {
         masked_.list.Clear();
         RasterCollect(Gather({{run.chunk, first, std::min<std::uint32_t>(run.end, first + kBatch)}}), behind_masked_,
@@ -207,7 +207,7 @@ class TileWorker final : public RecordTable {
         BatchAll(n);
         ShadeBatch(m, masked_, /*alpha_only=*/true);
         for (std::size_t i = 0; i < n; ++i) {
-          if (!(masked_.alpha[i] >= m.alpha_cutoff)) continue;
+          if (!(masked_.alpha[i] >= m.factors.alpha_cutoff)) continue;
           const std::int32_t number = masked_.list.record[i];
           WriteFragment(Record(number), number, masked_.list.pixel[i], masked_.list.samples[i], tile_);
         }
@@ -265,7 +265,7 @@ class TileWorker final : public RecordTable {
   void ChooseLights(const FragmentList& list) {
     constexpr int kFew = 4;
     lighting_ = in_.lighting;
-    const bool all = in_.settings.shader != nullptr || in_.lighting.light_count <= kFew || !in_.view.perspective;
+    const bool all = in_.settings.HasShaders() || in_.lighting.light_count <= kFew || !in_.view.perspective;
     if (all || list.Size() == 0) return;
     LitBox box(in_.view, tile_);
     std::int32_t last_number = kNoRecord;
@@ -284,7 +284,7 @@ class TileWorker final : public RecordTable {
   // Shades the fragments that batch_ names; some at a time, as the numbers of their setups are counted in 32 bits.
   void ShadeBatch(const FrameMaterial& material, ShadedFragments& fragments, bool alpha_only) {
     constexpr std::size_t kMost = std::size_t{1} << 20;
-    static_assert(kMost * SetupLayout::kStride <= INT32_MAX);
+    static_assert(kMost * SetupLayout::kMostStride <= INT32_MAX);
     if (batch_.size() <= kMost) return ShadeSome(material, fragments, alpha_only);
     const std::vector<std::uint32_t> whole = batch_;
     for (auto from = whole.begin(); from != whole.end();) {
@@ -319,7 +319,7 @@ class TileWorker final : public RecordTable {
       }
       setup_of[i] = last_setup;
     }
-    setups_.resize(std::max(setups_.size(), set_up_.size() * SetupLayout::kStride));
+    setups_.resize(std::max(setups_.size(), set_up_.size() * std::size_t(SetupLayout::Stride(material.uv_slots))));
     SetUpTriangles({&in_.view, in_.geometry.drawables.data(), &material, anchor_x, anchor_y, set_up_.data(),
                     set_up_.size(), setups_.data()});
     const std::uint16_t* pixels = list.pixel.data();
@@ -349,10 +349,10 @@ class TileWorker final : public RecordTable {
     task.non_finite = &counts_->non_finite;
     if (alpha_only) {
       ShadeAlpha(task);
-    } else if (in_.settings.shader != nullptr) {
-      in_.settings.shader->Shade(task);
+    } else if (material.shader != nullptr) {
+      material.shader->Shade(task);
     } else {
-      ShadeMetallicRoughnessFragments(task);
+      ShadeFragments(task);
     }
     if (n == list.Size()) {  // all, and in their order
       fragments.alpha.swap(alpha_);

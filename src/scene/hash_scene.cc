@@ -6,6 +6,7 @@
 #include "base/sha256.h"
 #include "facet/error.h"
 #include "facet/scene.h"
+#include "material/parameters.h"
 
 namespace facet {
 namespace {
@@ -53,9 +54,7 @@ class Description {
   void Fields(const Texture& t) { All(t.image, t.sampler); }
   void Fields(const TextureRef& t) { All(t.texture, t.tex_coord, t.offset, t.scale, t.rotation); }
   void Fields(const Material& m) {
-    All(m.base_color_factor, m.base_color_texture, m.metallic_factor, m.roughness_factor, m.metallic_roughness_texture,
-        m.normal_texture, m.normal_scale, m.occlusion_texture, m.occlusion_strength, m.emissive_factor,
-        m.emissive_texture, m.emissive_strength, m.alpha_mode, m.alpha_cutoff, m.double_sided, m.unlit);
+    ForEachParameter([&](const auto& parameter) { Add(m.*parameter.member); });
   }
   void Fields(const Primitive& p) { All(p.topology, p.material, p.variant_materials); }  // the rest is geometry
   void Fields(const Mesh& m) { All(m.primitives, m.weights); }

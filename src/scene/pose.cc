@@ -10,6 +10,7 @@
 #include "base/memory_budget.h"
 #include "base/parallel.h"
 #include "facet/error.h"
+#include "material/slots.h"
 #include "scene/bounds.h"
 #include "scene/deform.h"
 #include "scene/geometry.h"
@@ -72,10 +73,15 @@ int MaterialOf(const Primitive& primitive, int variant) {
   return primitive.material;
 }
 
-// Whether shading will read a normal map: the same answer as the plan of the frame gives.
-bool ReadsNormalMap(const Scene& scene, const Material& material) {
-  const TextureRef& ref = material.normal_texture;
-  return !material.unlit && ref && scene.textures[std::size_t(ref.texture)].image >= 0;
+// The first texture that shading will read in tangent space, by the same rule as the plan of the frame has; null: none.
+const TextureRef* TangentSpaceTexture(const Scene& scene, const Material& material) {
+  const MaterialFeatures read = FeaturesOf(material);
+  for (const SlotInfo& slot : kSlots) {
+    const TextureRef& ref = material.*slot.ref;
+    const bool is_read = slot.tangent_space && (read & BitOf(slot.slot)) != 0;
+    if (is_read && scene.textures[std::size_t(ref.texture)].image >= 0) return &ref;
+  }
+  return nullptr;
 }
 
 Shape MakeShape(const Scene& scene, const Primitive& primitive, int material, const PoseSettings& settings) {
@@ -83,9 +89,10 @@ Shape MakeShape(const Scene& scene, const Primitive& primitive, int material, co
   shape.primitive = &primitive;
   if (material >= 0 && ClassOf(primitive.topology) == PrimitiveClass::Triangles) {
     const Material& used = scene.materials[std::size_t(material)];
-    shape.needs_tangents = settings.normal_textures && ReadsNormalMap(scene, used) &&
-                           (settings.generate_tangents || primitive.normals.empty() || primitive.tangents.empty());
-    shape.normal_map = used.normal_texture;
+    const TextureRef* const texture = settings.normal_textures ? TangentSpaceTexture(scene, used) : nullptr;
+    shape.needs_tangents =
+        texture != nullptr && (settings.generate_tangents || primitive.normals.empty() || primitive.tangents.empty());
+    if (texture != nullptr) shape.normal_map = *texture;
   }
   return shape;
 }

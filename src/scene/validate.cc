@@ -4,9 +4,12 @@
 #include <limits>
 #include <sstream>
 #include <string>
+#include <type_traits>
 
 #include "facet/error.h"
 #include "facet/scene.h"
+#include "material/models/models.h"
+#include "material/parameters.h"
 
 namespace facet {
 namespace {
@@ -61,12 +64,13 @@ void CheckFinite(const glm::vec<kLength, Number>& vector, const Where& where, co
   CheckFinite(&vector[0], kLength, where, what);
 }
 
-// NaN is in no range. `high` may be infinity, which is not within.
+// NaN is in no range. The ends may be infinite, and are not within then.
 void CheckRange(double number, double low, double high, const Where& where, const char* what) {
-  if (number >= low && number <= high && number < kInfinity) return;
+  if (number >= low && number <= high && std::isfinite(number)) return;
   Fail(where, std::string(what) + " " + Text(number) +
-                  (high < kInfinity ? " is not in [" + Text(low) + ", " + Text(high) + "]"
-                                    : " is not a finite number of " + Text(low) + " or more"));
+                  (high < kInfinity   ? " is not in [" + Text(low) + ", " + Text(high) + "]"
+                   : low > -kInfinity ? " is not a finite number of " + Text(low) + " or more"
+                                      : " is not finite"));
 }
 template <int kLength>
 void CheckRange(const glm::vec<kLength, float>& vector, double low, double high, const Where& where, const char* what) {
@@ -113,21 +117,21 @@ void CheckTextureRef(const TextureRef& ref, const Scene& scene, const Where& whe
   }
 }
 
+template <class Value>
+void CheckParameter(const Value& value, const Parameter<Value>& parameter, const Scene& scene, const Where& where) {
+  if constexpr (std::is_same_v<Value, TextureRef>) {
+    CheckTextureRef(value, scene, where, parameter.name);
+  } else if constexpr (std::is_same_v<Value, AlphaMode>) {
+    CheckEnum(value, AlphaMode::Blend, where, parameter.name);
+  } else if constexpr (std::is_same_v<Value, ShadingModel>) {
+    CheckEnum(value, kModels.back().model, where, parameter.name);
+  } else if constexpr (!std::is_same_v<Value, bool>) {
+    CheckRange(value, parameter.range.low, parameter.range.high, where, parameter.name);
+  }
+}
+
 void CheckMaterial(const Material& material, const Scene& scene, const Where& where) {
-  CheckTextureRef(material.base_color_texture, scene, where, "base colour texture");
-  CheckTextureRef(material.metallic_roughness_texture, scene, where, "metallic-roughness texture");
-  CheckTextureRef(material.normal_texture, scene, where, "normal texture");
-  CheckTextureRef(material.occlusion_texture, scene, where, "occlusion texture");
-  CheckTextureRef(material.emissive_texture, scene, where, "emissive texture");
-  CheckRange(material.base_color_factor, 0.0, 1.0, where, "base colour factor");
-  CheckRange(material.metallic_factor, 0.0, 1.0, where, "metallic factor");
-  CheckRange(material.roughness_factor, 0.0, 1.0, where, "roughness factor");
-  CheckFinite(&material.normal_scale, 1, where, "the normal scale");
-  CheckRange(material.occlusion_strength, 0.0, 1.0, where, "occlusion strength");
-  CheckRange(material.emissive_factor, 0.0, kInfinity, where, "emissive factor");
-  CheckRange(material.emissive_strength, 0.0, kInfinity, where, "emissive strength");
-  CheckEnum(material.alpha_mode, AlphaMode::Blend, where, "alpha mode");
-  CheckRange(material.alpha_cutoff, 0.0, kInfinity, where, "alpha cutoff");
+  ForEachParameter([&](const auto& parameter) { CheckParameter(material.*parameter.member, parameter, scene, where); });
 }
 
 void CheckTarget(const MorphTarget& target, std::size_t count, const Where& where) {

@@ -17,6 +17,8 @@ HWY_BEFORE_NAMESPACE();
 namespace facet {
 namespace HWY_NAMESPACE {
 
+static_assert(kMaxUvSlots <= kSurfaceUvSlots);
+
 template <class T>
 struct Barycentric {
   T b[3];                // weights, >= 0, sum 1
@@ -88,7 +90,7 @@ HWY_INLINE void InterpolateFrom(const ShadeTask& task, Base base, T x, T y, Surf
     s.interpolated_normal = Xyz(InterpolateVec4(setups, base, w, SetupLayout::kNormals, 3));
     s.normal = NormalizeOr(s.interpolated_normal, s.view);
   }
-  if (material.Has(kNormalTexture)) s.tangent = InterpolateVec4(setups, base, w, SetupLayout::kTangents, 4);
+  if (material.Has(kTangentSpace)) s.tangent = InterpolateVec4(setups, base, w, SetupLayout::kTangents, 4);
   for (int slot = 0; slot < material.uv_slots; ++slot) {
     const float* p = setups + SetupLayout::kTexCoords + 6 * slot;
     const Vec4<T> uv01 = FetchVec4<T>(p, base), uv12 = FetchVec4<T>(p + 2, base);
@@ -99,19 +101,18 @@ HWY_INLINE void InterpolateFrom(const ShadeTask& task, Base base, T x, T y, Surf
     s.duv_dx[slot] = weigh(w.db_dx);
     s.duv_dy[slot] = weigh(w.db_dy);
   }
-  for (int slot = material.uv_slots; slot < kSurfaceUvSlots; ++slot) {
-    s.uv[slot] = s.duv_dx[slot] = s.duv_dy[slot] = Vec2<T>{};
-  }
 }
 
-// The surface under fragment i of `task`, or those of all lanes from i on: what its material reads; the rest is zero.
+// The surface under fragment i of `task`, or those of all lanes from i on: what its material reads. The rest is zero,
+// but for the texture coordinates, which are not set.
 template <class T>
 HWY_INLINE void InterpolateSurface(const ShadeTask& task, std::size_t i, Surface<T>& s) {
   const T x = Load<T>(task.x + i), y = Load<T>(task.y + i);
   const std::int32_t first = task.setup[i];
+  const std::int32_t stride = SetupLayout::Stride(task.material->uv_slots);
   const IntOf<T> setup = LoadIntOf<T>(task.setup + i);
-  if (All(setup == IntOf<T>(first))) return InterpolateFrom(task, OneSetup{first * SetupLayout::kStride}, x, y, s);
-  InterpolateFrom(task, setup * IntOf<T>(SetupLayout::kStride), x, y, s);
+  if (All(setup == IntOf<T>(first))) return InterpolateFrom(task, OneSetup{first * stride}, x, y, s);
+  InterpolateFrom(task, setup * IntOf<T>(stride), x, y, s);
 }
 template <class T>
 HWY_INLINE Surface<T> InterpolateSurface(const ShadeTask& task, std::size_t i) {

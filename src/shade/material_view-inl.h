@@ -30,9 +30,9 @@ class TextureReader {
     summed_count_ = 0;
     const TexturesOf all(m);
     for (int k = 0; k < all.count; ++k) {
-      if (k == 0) Find(*all.slots[0]);
-      const TextureSlot& slot = *all.slots[k];
-      if (HaveSameTaps(*made_for_, slot) && !IsDark(slot, taps_)) PrefetchTexels(*slot.data, taps_);
+      if (k == 0) Find(*all.textures[0]);
+      const BoundTexture& texture = *all.textures[k];
+      if (HaveSameTaps(*made_for_, texture) && !IsDark(texture, taps_)) PrefetchTexels(*texture.data, taps_);
     }
   }
 
@@ -41,19 +41,19 @@ class TextureReader {
     TexturesOf left(m);
     dark_ = nullptr;
     for (summed_count_ = 0; left.count > 0;) {
-      Find(*left.slots[0]);
-      const TextureData* together[5];
-      const TextureSlot* emission = nullptr;
+      Find(*left.textures[0]);
+      const TextureData* together[kSlotCount];
+      const BoundTexture* emission = nullptr;
       int count = 0, others = 0;
       for (int k = 0; k < left.count; ++k) {
-        const TextureSlot* slot = left.slots[k];
-        if (!HaveSameTaps(*made_for_, *slot)) {
-          left.slots[others++] = slot;
-        } else if (slot->data->dark.width > 0) {
-          emission = slot;
+        const BoundTexture* texture = left.textures[k];
+        if (!HaveSameTaps(*made_for_, *texture)) {
+          left.textures[others++] = texture;
+        } else if (texture->data->dark.width > 0) {
+          emission = texture;
         } else {
-          summed_[summed_count_ + count] = slot;
-          together[count++] = slot->data;
+          summed_[summed_count_ + count] = texture;
+          together[count++] = texture->data;
         }
       }
       if (count > 0) SumTexels(count, together, taps_, sums_ + summed_count_);
@@ -69,47 +69,42 @@ class TextureReader {
   }
 
   template <int kChannels>
-  HWY_INLINE Vec4<T> Read(const TextureSlot& slot) {
-    if (&slot == dark_) return {T(0.0f), T(0.0f), T(0.0f), T(0.0f)};
+  HWY_INLINE Vec4<T> Read(const BoundTexture& texture) {
+    if (&texture == dark_) return {T(0.0f), T(0.0f), T(0.0f), T(0.0f)};
     for (int k = 0; k < summed_count_; ++k) {
-      if (summed_[k] == &slot) return ChannelsOf<kChannels>(*slot.data, sums_[k]);
+      if (summed_[k] == &texture) return ChannelsOf<kChannels>(*texture.data, sums_[k]);
     }
-    Find(slot);
-    return ReadTexture<kChannels>(slot, taps_);
+    Find(texture);
+    return ReadTexture<kChannels>(texture, taps_);
   }
 
   HWY_INLINE bool IsOf(const Surface<T>& surface) const { return &surface == &s_; }
 
  private:
   struct TexturesOf {
-    const TextureSlot* slots[5];
+    const BoundTexture* textures[kSlotCount];
     int count = 0;
     HWY_INLINE explicit TexturesOf(const FrameMaterial& m) {
-      const auto add = [&](MaterialFeature feature, const TextureSlot& slot) {
-        if (m.Has(feature)) slots[count++] = &slot;
-      };
-      add(kBaseColorTexture, m.base_color_texture);
-      add(kMetallicRoughnessTexture, m.metallic_roughness_texture);
-      add(kOcclusionTexture, m.occlusion_texture);
-      add(kNormalTexture, m.normal_texture);
-      add(kEmissiveTexture, m.emissive_texture);
+      for (MaterialFeatures left = m.features & kTextureBits; left != 0; left &= left - 1) {
+        textures[count++] = &m.textures[__builtin_ctzll(left)];
+      }
     }
   };
 
-  HWY_INLINE void Find(const TextureSlot& slot) {
-    if (made_for_ != nullptr && HaveSameTaps(*made_for_, slot)) return;
-    const int k = slot.uv_slot;
-    MakeTextureTaps(slot, s_.uv[k], s_.duv_dx[k], s_.duv_dy[k], taps_);
-    made_for_ = &slot;
+  HWY_INLINE void Find(const BoundTexture& texture) {
+    if (made_for_ != nullptr && HaveSameTaps(*made_for_, texture)) return;
+    const int k = texture.uv_slot;
+    MakeTextureTaps(texture, s_.uv[k], s_.duv_dx[k], s_.duv_dy[k], taps_);
+    made_for_ = &texture;
   }
 
   const Surface<T>& s_;
-  const TextureSlot* made_for_ = nullptr;
+  const BoundTexture* made_for_ = nullptr;
   TextureTaps<T> taps_;
   int summed_count_ = 0;
-  const TextureSlot* summed_[5] = {};  // what ReadAll() has read
-  TexelSums<T> sums_[5];
-  const TextureSlot* dark_ = nullptr;  // what ReadAll() has found black, without reading
+  const BoundTexture* summed_[kSlotCount] = {};  // what ReadAll() has read
+  TexelSums<T> sums_[kSlotCount];
+  const BoundTexture* dark_ = nullptr;  // what ReadAll() has found black, without reading
 };
 
 // T is Float (lanes), float or double.
@@ -134,8 +129,8 @@ class MaterialView {
   HWY_INLINE T Alpha(const Surface<T>& s) const {
     TextureReader<T> own(s);
     TextureReader<T>& textures = ReaderOf(s, own);
-    T alpha = T(m_.base_color[3]) * s.color.w;
-    if (ReadsAlpha()) alpha = alpha * textures.template Read<kA>(m_.base_color_texture).w;
+    T alpha = T(m_.factors.base_color[3]) * s.color.w;
+    if (ReadsAlpha()) alpha = alpha * textures.template Read<kA>(m_.Texture(Slot::BaseColor)).w;
     return alpha;
   }
 
@@ -158,17 +153,18 @@ class MaterialView {
     TextureReader<T>& textures = ReaderOf(s, own);
     textures.ReadAll(m_);
     const Vec4<T> base = BaseColor(s, textures);
-    T metallic(m_.metallic), perceptual_roughness(m_.perceptual_roughness), occlusion(1.0f);
-    if (m_.Has(kMetallicRoughnessTexture)) {
-      const Vec4<T> texel = textures.template Read<kG | kB>(m_.metallic_roughness_texture);
+    T metallic(m_.factors.metallic), perceptual_roughness(m_.factors.perceptual_roughness), occlusion(1.0f);
+    if (m_.Reads(Slot::MetallicRoughness)) {
+      const Vec4<T> texel = textures.template Read<kG | kB>(m_.Texture(Slot::MetallicRoughness));
       perceptual_roughness = perceptual_roughness * texel.y;
       metallic = metallic * texel.z;
     }
-    if (m_.Has(kOcclusionTexture)) {
-      occlusion = occlusion + T(m_.occlusion_strength) * (textures.template Read<kR>(m_.occlusion_texture).x - T(1.0f));
+    if (m_.Reads(Slot::Occlusion)) {
+      occlusion = occlusion + T(m_.factors.occlusion_strength) *
+                                  (textures.template Read<kR>(m_.Texture(Slot::Occlusion)).x - T(1.0f));
     }
     const Vec3<T> emissive = Emits() ? Emissive(textures) : Vec3<T>{T(0.0f), T(0.0f), T(0.0f)};
-    return {Xyz(base), base.w, metallic, perceptual_roughness, Normal(s, textures), occlusion, emissive};
+    return {Xyz(base), base.w, metallic, perceptual_roughness, Normal(s, textures), occlusion, emissive, m_.features};
   }
 
  private:
@@ -176,21 +172,21 @@ class MaterialView {
     return ahead_ != nullptr && ahead_->IsOf(s) ? *ahead_ : own;
   }
 
-  HWY_INLINE bool ReadsAlpha() const { return m_.Has(kBaseColorTexture) && m_.alpha_mode != AlphaMode::Opaque; }
+  HWY_INLINE bool ReadsAlpha() const { return m_.Reads(Slot::BaseColor) && m_.alpha_mode != AlphaMode::Opaque; }
 
   HWY_INLINE Vec4<T> BaseColor(const Surface<T>& s, TextureReader<T>& textures) const {
-    Vec4<T> c{T(m_.base_color[0]) * s.color.x, T(m_.base_color[1]) * s.color.y, T(m_.base_color[2]) * s.color.z,
-              T(m_.base_color[3]) * s.color.w};
-    if (!m_.Has(kBaseColorTexture)) return c;
-    Vec4<T> texel = textures.template Read<kRgba>(m_.base_color_texture);
+    Vec4<T> c{T(m_.factors.base_color[0]) * s.color.x, T(m_.factors.base_color[1]) * s.color.y,
+              T(m_.factors.base_color[2]) * s.color.z, T(m_.factors.base_color[3]) * s.color.w};
+    if (!m_.Reads(Slot::BaseColor)) return c;
+    Vec4<T> texel = textures.template Read<kRgba>(m_.Texture(Slot::BaseColor));
     if (!ReadsAlpha()) texel.w = T(1.0f);
     return c * texel;
   }
 
   HWY_INLINE Vec3<T> Normal(const Surface<T>& s, TextureReader<T>& textures) const {
-    if (!m_.Has(kNormalTexture)) return s.normal;
-    const Vec4<T> texel = textures.template Read<kRgb>(m_.normal_texture);
-    const T scale(m_.normal_scale);
+    if (!m_.Reads(Slot::Normal)) return s.normal;
+    const Vec4<T> texel = textures.template Read<kRgb>(m_.Texture(Slot::Normal));
+    const T scale(m_.factors.normal_scale);
     const Vec3<T> n{(texel.x * T(2.0f) - T(1.0f)) * scale, (texel.y * T(2.0f) - T(1.0f)) * scale,
                     texel.z * T(2.0f) - T(1.0f)};
     // As MikkTSpace demands, the bitangent is made here, from the interpolated vectors, which are not normalised.
@@ -199,8 +195,8 @@ class MaterialView {
   }
 
   HWY_INLINE Vec3<T> Emissive(TextureReader<T>& textures) const {
-    Vec3<T> e{T(m_.emissive[0]), T(m_.emissive[1]), T(m_.emissive[2])};
-    if (m_.Has(kEmissiveTexture)) e = e * Xyz(textures.template Read<kRgb>(m_.emissive_texture));
+    Vec3<T> e{T(m_.factors.emissive[0]), T(m_.factors.emissive[1]), T(m_.factors.emissive[2])};
+    if (m_.Reads(Slot::Emissive)) e = e * Xyz(textures.template Read<kRgb>(m_.Texture(Slot::Emissive)));
     return e;
   }
 

@@ -3,19 +3,25 @@
 #include <algorithm>
 #include <iterator>
 
+#include "material/models/models.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "shade/shade_fragments.cc"
 #include "hwy/foreach_target.h"
 // Must come after foreach_target.h.
 #include "facet/shader/dispatch.h"
-#include "shade/metallic_roughness-inl.h"
+#include "material/models/metallic_roughness-inl.h"
+#include "material/models/unlit-inl.h"
 #include "shade/shade_packets-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace facet {
 namespace HWY_NAMESPACE {
 
-void MetallicRoughnessKernel(const ShadeTask& task) { ShadePackets(task, MetallicRoughness()); }
+#define FACET_MODEL_KERNEL(Name) \
+  void Name##Kernel(const ShadeTask& task) { ShadePackets(task, Name()); }
+FACET_SHADING_MODELS(FACET_MODEL_KERNEL)
+#undef FACET_MODEL_KERNEL
 
 void AlphaKernel(const ShadeTask& task) {
   const MaterialView<Float> material(*task.material);
@@ -70,11 +76,20 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace facet {
 
-FACET_EXPORT(MetallicRoughnessKernel);
+#define FACET_MODEL_EXPORT(Name) FACET_EXPORT(Name##Kernel);
+FACET_SHADING_MODELS(FACET_MODEL_EXPORT)
+#undef FACET_MODEL_EXPORT
 FACET_EXPORT(AlphaKernel);
 FACET_EXPORT(BackgroundKernel);
 
-void ShadeMetallicRoughnessFragments(const ShadeTask& task) { FACET_DISPATCH(MetallicRoughnessKernel)(task); }
+void ShadeFragments(const ShadeTask& task) {
+  switch (task.material->model) {
+#define FACET_MODEL_CASE(Name) \
+  case ShadingModel::Name: return FACET_DISPATCH(Name##Kernel)(task);
+    FACET_SHADING_MODELS(FACET_MODEL_CASE)
+#undef FACET_MODEL_CASE
+  }
+}
 void ShadeAlpha(const ShadeTask& task) { FACET_DISPATCH(AlphaKernel)(task); }
 void ShadeBackground(const BackgroundTask& task) { FACET_DISPATCH(BackgroundKernel)(task); }
 

@@ -5,8 +5,8 @@
 
 namespace facet {
 
-// glTF 2.0's material model. Fills all outputs of `task`.
-void ShadeMetallicRoughnessFragments(const ShadeTask& task);
+// By the material's shading model. Fills all outputs of `task`.
+void ShadeFragments(const ShadeTask& task);
 
 // Alpha alone, for the alpha test. Fills task.alpha.
 void ShadeAlpha(const ShadeTask& task);

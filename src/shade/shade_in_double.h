@@ -7,7 +7,7 @@
 
 namespace facet {
 
-// glTF 2.0's material model, shaded fragment by fragment in double: a RenderSettings::shader that draws what the same
+// The materials' models, shaded fragment by fragment in double: a RenderSettings::shader that draws what the same
 // algorithm draws without rounding in between. One source (interpolation, textures, closure, light), the same tables,
 // prefiltered maps, texels and constants as the lanes read; rounded are only what crosses into the stage, the triangle
 // setups and positions, and what leaves it, one float a channel. The difference of the two films is the rounding error

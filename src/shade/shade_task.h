@@ -16,9 +16,10 @@ struct ShadeTask {
   const float* x = nullptr;
   const float* y = nullptr;
   std::size_t count = 0;
-  const float* setups = nullptr;        // SetupLayout::kStride numbers each
+  const float* setups = nullptr;  // SetupLayout::Stride() floats each
   const FrameMaterial* material = nullptr;
   const LightingData* lighting = nullptr;
+  const void* parameters = nullptr;  // of a user's shader
   // Orthographic cameras look from everywhere in this direction (world axes, unit, towards the eye).
   bool orthographic = false;
   float view_direction[3] = {0, 0, 1};

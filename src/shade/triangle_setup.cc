@@ -88,13 +88,13 @@ struct SetupLanes {
   HWY_INLINE void Put(int place, const Point& p) { Put(place, p.x), Put(place + 1, p.y), Put(place + 2, p.z); }
 
   // Moves the first `count` numbers of `lanes` triangles to their places, by fours: some beyond may come along.
-  HWY_INLINE void WriteTo(float* setups, std::size_t lanes, int count) const {
+  HWY_INLINE void WriteTo(float* setups, std::size_t stride, std::size_t lanes, int count) const {
     alignas(64) float fours[4 * kMaxDoubles];
     const HalfTag half;
     for (int i = 0; i < count; i += 4) {
       hn::StoreInterleaved4(hn::LoadU(half, numbers[i]), hn::LoadU(half, numbers[i + 1]),
                             hn::LoadU(half, numbers[i + 2]), hn::LoadU(half, numbers[i + 3]), half, fours);
-      for (std::size_t k = 0; k < lanes; ++k) std::memcpy(setups + k * SetupLayout::kStride + i, fours + 4 * k, 16);
+      for (std::size_t k = 0; k < lanes; ++k) std::memcpy(setups + k * stride + i, fours + 4 * k, 16);
     }
   }
 };
@@ -203,7 +203,7 @@ void SetUpGroup(const SetupTask& task, const Group& group, SetupLanes& out) {
       out.Put(SetupLayout::kNormals + 3 * i, normal);
     }
   }
-  if (task.material->Has(kNormalTexture)) {
+  if (task.material->Has(kTangentSpace)) {
     for (int i = 0; i < 3; ++i) {
       const Point turned = Transform(drawable.eye_relative_from_mesh, group.tangents.Get(i), 0.0);
       const Point x_axis{Double(1.0), Double(0.0), Double(0.0)};
@@ -215,7 +215,7 @@ void SetUpGroup(const SetupTask& task, const Group& group, SetupLanes& out) {
 
 // What is only copied.
 void CopyAttributes(const FrameMaterial& material, const Primitive& geometry, const Vertices& vertex, float* setup) {
-  if (material.Has(kNormalTexture) && !geometry.tangents.empty()) {
+  if (material.Has(kTangentSpace) && !geometry.tangents.empty()) {
     float* handedness = setup + SetupLayout::kTangents + 3;
     for (int i = 0; i < 3; ++i) handedness[4 * i] *= geometry.tangents[vertex[std::size_t(i)]].w;
   }
@@ -242,8 +242,9 @@ void SetUpTrianglesKernel(const SetupTask& task) {
   constexpr std::size_t kAhead = 16;  // triangles: twice the most lanes
   static_assert(kAhead >= 2 * kMaxDoubles);
   const FrameMaterial& material = *task.material;
-  const bool lit = material.Has(kLit), normal_texture = material.Has(kNormalTexture);
-  const int count = normal_texture ? SetupLayout::kColors : lit ? SetupLayout::kTangents : SetupLayout::kPositions;
+  const bool lit = material.Has(kLit), tangent_space = material.Has(kTangentSpace);
+  const auto stride = std::size_t(SetupLayout::Stride(material.uv_slots));
+  const int count = tangent_space ? SetupLayout::kColors : lit ? SetupLayout::kTangents : SetupLayout::kPositions;
   Vertices vertices[kAhead];  // of triangle i at i % kAhead
   const auto place = [](std::size_t i) { return i % kAhead; };
   const auto ask_for_indices = [&](std::size_t i) HWY_ATTR {
@@ -272,7 +273,7 @@ void SetUpTrianglesKernel(const SetupTask& task) {
     const Primitive& geometry = *group.drawable->geometry;
     const glm::vec3* positions = geometry.positions.data();
     const glm::vec3* normals = lit && !geometry.normals.empty() ? geometry.normals.data() : nullptr;
-    const glm::vec4* tangents = normal_texture && !geometry.tangents.empty() ? geometry.tangents.data() : nullptr;
+    const glm::vec4* tangents = tangent_space && !geometry.tangents.empty() ? geometry.tangents.data() : nullptr;
     const std::size_t most = std::min(hn::Lanes(DoubleTag()), task.count - i);
     std::size_t n = 0;
     for (; n < most; ++n) {
@@ -283,15 +284,15 @@ void SetUpTrianglesKernel(const SetupTask& task) {
         const std::size_t v = vertex[std::size_t(k)];
         group.positions.Set(n, k, &positions[v].x);
         if (normals != nullptr) group.normals.Set(n, k, &normals[v].x);
-        if (normal_texture) group.tangents.Set(n, k, tangents != nullptr ? &tangents[v].x : kNoTangent);
+        if (tangent_space) group.tangents.Set(n, k, tangents != nullptr ? &tangents[v].x : kNoTangent);
       }
       group.sides[n] = record.back_facing ? -1.0 : 1.0;
     }
     SetUpGroup(task, group, out);
-    float* setups = task.setups + i * SetupLayout::kStride;
-    out.WriteTo(setups, n, count);
+    float* setups = task.setups + i * stride;
+    out.WriteTo(setups, stride, n, count);
     for (std::size_t k = 0; k < n; ++k) {
-      CopyAttributes(material, geometry, vertices[place(i + k)], setups + k * SetupLayout::kStride);
+      CopyAttributes(material, geometry, vertices[place(i + k)], setups + k * stride);
     }
     for (std::size_t k = i; k < i + n; ++k) ask_for_vertices(k + kAhead), ask_for_indices(k + 2 * kAhead);
     i += n;

@@ -18,9 +18,11 @@ struct SetupLayout {
   static constexpr int kTangents = kNormals + 9;     // x, y, z, handedness
   static constexpr int kColors = kTangents + 12;     // R, G, B, A
   static constexpr int kTexCoords = kColors + 12;    // of UV slot k: 6 numbers at kTexCoords + 6 k
-  static constexpr int kStride = kTexCoords + 6 * kMaxUvSlots + 3;  // 84: a multiple of 16 bytes
+
+  // Floats from one setup to the next where a material reads so many UV sets: a multiple of 16 bytes.
+  static constexpr int Stride(int uv_slots) { return (kTexCoords + 6 * uv_slots + 3) / 4 * 4; }
+  static constexpr int kMostStride = (kTexCoords + 6 * kMaxUvSlots + 3) / 4 * 4;
 };
-static_assert(SetupLayout::kStride % 4 == 0);
 
 // Triangles, lines or points of one material, to be set up for the fragments of a tile.
 struct SetupTask {
@@ -30,7 +32,7 @@ struct SetupTask {
   int anchor_x = 0, anchor_y = 0;            // pixels
   const TriangleRecord* const* records = nullptr;
   std::size_t count = 0;
-  float* setups = nullptr;                   // out: SetupLayout::kStride numbers each, in the order of the records
+  float* setups = nullptr;  // out: SetupLayout::Stride() floats each, in the order of the records
 };
 
 // Sets of the attributes only those that the material reads. What a primitive gets does not depend on its neighbours.

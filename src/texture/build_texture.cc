@@ -233,10 +233,10 @@ TextureData BuildTexture(const Image& image, TextureRole role, bool mips, TexelB
   return builder.Finish();
 }
 
-void SetTransform(const TextureRef& ref, TextureSlot& slot) {
+void SetTransform(const TextureRef& ref, BoundTexture& texture) {
   const float c = static_cast<float>(Cos(ref.rotation)), s = static_cast<float>(Sin(ref.rotation));
   const float m[6] = {c * ref.scale.x, s * ref.scale.y, ref.offset.x, -s * ref.scale.x, c * ref.scale.y, ref.offset.y};
-  std::memcpy(slot.transform, m, sizeof m);
+  std::memcpy(texture.transform, m, sizeof m);
 }
 
 }  // namespace facet

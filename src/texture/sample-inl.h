@@ -145,8 +145,9 @@ struct Footprint {
 };
 
 template <class T>
-HWY_INLINE Footprint<T> MakeFootprint(const TextureSlot& slot, Vec2<T> duv_dx, Vec2<T> duv_dy) {
-  const T width(static_cast<float>(slot.data->level_width[0])), height(static_cast<float>(slot.data->level_height[0]));
+HWY_INLINE Footprint<T> MakeFootprint(const BoundTexture& texture, Vec2<T> duv_dx, Vec2<T> duv_dy) {
+  const T width(static_cast<float>(texture.data->level_width[0])),
+      height(static_cast<float>(texture.data->level_height[0]));
   // Beyond every texture's last level, and below what overflows when it is squared twice; a NaN becomes the lower one.
   const T limit(1e9f);
   const auto bounded = [&](T texels) HWY_ATTR { return Clamp(texels, -limit, limit); };
@@ -162,12 +163,12 @@ HWY_INLINE Footprint<T> MakeFootprint(const TextureSlot& slot, Vec2<T> duv_dx, V
 
   // Several taps are for smooth filters: what asks for nearest texels, or has no smaller levels, gets one, and that one
   // covers the whole length.
-  const bool several = slot.sampler.minification == Filter::Linear && slot.sampler.mip != MipFilter::None;
+  const bool several = texture.sampler.minification == Filter::Linear && texture.sampler.mip != MipFilter::None;
   Footprint<T> f{};
   // Fewer taps than the ratio of the axes would blur along the minor one; more would waste.
   const T ratio = major / Max(minor, T(1e-15f));
   const T needed = Max(-Floor(-ratio), T(1.0f));
-  f.taps = Min(needed, T(several ? slot.max_anisotropy : 1.0f));
+  f.taps = Min(needed, T(several ? texture.max_anisotropy : 1.0f));
   f.taps = Select(major > T(1.0f), f.taps, T(1.0f));  // magnified: one tap sees it all
   f.width = Max(major / f.taps, Max(minor, T(1e-15f)));
   f.lod = Log2(f.width);
@@ -197,7 +198,7 @@ struct TextureTaps {
 };
 
 // Whether samples of both slots at the same texture coordinates read the same places.
-HWY_INLINE bool HaveSameTaps(const TextureSlot& a, const TextureSlot& b) {
+HWY_INLINE bool HaveSameTaps(const BoundTexture& a, const BoundTexture& b) {
   const TextureData &p = *a.data, &q = *b.data;
   const Sampler &f = a.sampler, &g = b.sampler;
   bool same = a.uv_slot == b.uv_slot && a.max_anisotropy == b.max_anisotropy && p.levels == q.levels &&
@@ -208,18 +209,18 @@ HWY_INLINE bool HaveSameTaps(const TextureSlot& a, const TextureSlot& b) {
   return same;
 }
 
-// The places that a sample of `slot` reads at interpolated coordinates with their derivatives over one pixel.
+// The places that a sample of `texture` reads at interpolated coordinates with their derivatives over one pixel.
 template <class T>
-HWY_NOINLINE void MakeTextureTaps(const TextureSlot& slot, const Vec2<T>& uv_in, const Vec2<T>& duv_dx_in,
+HWY_NOINLINE void MakeTextureTaps(const BoundTexture& texture, const Vec2<T>& uv_in, const Vec2<T>& duv_dx_in,
                                   const Vec2<T>& duv_dy_in, TextureTaps<T>& out) {
-  const float* m = slot.transform;
+  const float* m = texture.transform;
   const auto rotate = [&](Vec2<T> d) HWY_ATTR {
     return Vec2<T>{T(m[0]) * d.x + T(m[1]) * d.y, T(m[3]) * d.x + T(m[4]) * d.y};
   };
   const Vec2<T> turned = rotate(uv_in);
   const Vec2<T> uv{turned.x + T(m[2]), turned.y + T(m[5])};
-  const Sampler& sampler = slot.sampler;
-  const TextureData& data = *slot.data;
+  const Sampler& sampler = texture.sampler;
+  const TextureData& data = *texture.data;
   const MaskOf<T> yes(true), no(false);
   const T all(kWeightSum<T>);
   out.uv = uv;
@@ -235,7 +236,7 @@ HWY_NOINLINE void MakeTextureTaps(const TextureSlot& slot, const Vec2<T>& uv_in,
     return read_level_0(sampler.magnification == Filter::Linear ? yes : no);
   }
 
-  const Footprint<T> footprint = MakeFootprint(slot, rotate(duv_dx_in), rotate(duv_dy_in));
+  const Footprint<T> footprint = MakeFootprint(texture, rotate(duv_dx_in), rotate(duv_dy_in));
   const T max_level(static_cast<float>(data.levels - 1));
   const T lod = Clamp(footprint.lod, T(0.0f), max_level);
   const MaskOf<T> magnified = footprint.lod <= T(0.0f), minified = !magnified;
@@ -276,14 +277,14 @@ HWY_NOINLINE void MakeTextureTaps(const TextureSlot& slot, const Vec2<T>& uv_in,
 
 // Whether what would be read at `taps` is black, for each lane.
 template <class T>
-HWY_INLINE bool IsDark(const TextureSlot& slot, const TextureTaps<T>& taps) {
-  const DarkCells& dark = slot.data->dark;
+HWY_INLINE bool IsDark(const BoundTexture& texture, const TextureTaps<T>& taps) {
+  const DarkCells& dark = texture.data->dark;
   if (dark.width == 0) return false;
   const auto cell = [](Wrap wrap, T position, int cells) HWY_ATTR {
     return Min(TruncateToInt(Wrapped(wrap, position) * T(static_cast<float>(cells))), IntOf<T>(cells - 1));
   };
-  const IntOf<T> x = cell(slot.sampler.wrap_u, taps.uv.x, dark.width),
-                 y = cell(slot.sampler.wrap_v, taps.uv.y, dark.height);
+  const IntOf<T> x = cell(texture.sampler.wrap_u, taps.uv.x, dark.width),
+                 y = cell(texture.sampler.wrap_v, taps.uv.y, dark.height);
   const MaskOf<T> in_dark = FetchInt(dark.lit.data(), y * IntOf<T>(dark.width) + x) == IntOf<T>(0);
   return All(in_dark & MaskOf<T>(taps.reach <= T(dark.reach)));
 }
@@ -430,14 +431,14 @@ HWY_NOINLINE void SumTexels(const TextureData* const* textures, const TextureTap
   }
 }
 template <class T>
-HWY_INLINE void SumTexels(int count, const TextureData* const* textures, const TextureTaps<T>& taps,
-                          TexelSums<T>* sums) {
+HWY_INLINE void SumTexels(int count, const TextureData* const* of, const TextureTaps<T>& taps, TexelSums<T>* sums) {
+  for (; count > 5; count -= 5, of += 5, sums += 5) SumTexels<5, T>(of, taps, sums);
   switch (count) {
-    case 1: return SumTexels<1, T>(textures, taps, sums);
-    case 2: return SumTexels<2, T>(textures, taps, sums);
-    case 3: return SumTexels<3, T>(textures, taps, sums);
-    case 4: return SumTexels<4, T>(textures, taps, sums);
-    default: return SumTexels<5, T>(textures, taps, sums);
+    case 1: return SumTexels<1, T>(of, taps, sums);
+    case 2: return SumTexels<2, T>(of, taps, sums);
+    case 3: return SumTexels<3, T>(of, taps, sums);
+    case 4: return SumTexels<4, T>(of, taps, sums);
+    default: return SumTexels<5, T>(of, taps, sums);
   }
 }
 
@@ -477,20 +478,20 @@ HWY_INLINE Vec4<T> ChannelsOf(const TextureData& data, const TexelSums<T>& sums)
   return c;
 }
 
-// What `slot` shows at places that were made for it, or for one that has the same.
+// What `texture` shows at places that were made for it, or for one that has the same.
 template <int kChannels, class T>
-HWY_INLINE Vec4<T> ReadTexture(const TextureSlot& slot, const TextureTaps<T>& taps) {
+HWY_INLINE Vec4<T> ReadTexture(const BoundTexture& texture, const TextureTaps<T>& taps) {
   TexelSums<T> sums;
-  SumTexels<1, T>(&slot.data, taps, &sums);
-  return ChannelsOf<kChannels>(*slot.data, sums);
+  SumTexels<1, T>(&texture.data, taps, &sums);
+  return ChannelsOf<kChannels>(*texture.data, sums);
 }
 
-// Samples the texture of `slot` at interpolated coordinates `uv` with their derivatives over one pixel.
+// Samples the texture of `texture` at interpolated coordinates `uv` with their derivatives over one pixel.
 template <int kChannels, class T>
-HWY_INLINE Vec4<T> SampleTexture(const TextureSlot& slot, Vec2<T> uv, Vec2<T> duv_dx, Vec2<T> duv_dy) {
+HWY_INLINE Vec4<T> SampleTexture(const BoundTexture& texture, Vec2<T> uv, Vec2<T> duv_dx, Vec2<T> duv_dy) {
   TextureTaps<T> taps;
-  MakeTextureTaps(slot, uv, duv_dx, duv_dy, taps);
-  return ReadTexture<kChannels>(slot, taps);
+  MakeTextureTaps(texture, uv, duv_dx, duv_dy, taps);
+  return ReadTexture<kChannels>(texture, taps);
 }
 
 }  // namespace HWY_NAMESPACE

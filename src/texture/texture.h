@@ -10,19 +10,11 @@
 #include "facet/image.h"
 #include "facet/scene.h"
 #include "facet/settings.h"
+#include "image/channels.h"
 
 namespace facet {
 
 inline constexpr int kMaxTextureLevels = 16;  // 32768 texels a side
-
-// What the numbers of a texture mean; it decides how they are stored.
-enum class TextureRole : std::uint8_t {
-  Color,  // sRGB in the file; kept as 16-bit linear light, because eight bits are too few for it
-  Data,   // normals, roughness, metalness, occlusion: as in the file
-};
-
-// Which of R, G, B and A: one bit each.
-enum ChannelMask : int { kR = 1, kG = 2, kB = 4, kA = 8, kRgb = 7, kRgba = 15 };
 
 // Where in a picture there is nothing but black, also around: of most textures of emission it is nearly everywhere, and
 // they need not be read there. Cells are the texels of the first level that is at most kMaxSide wide and high.
@@ -82,8 +74,8 @@ std::size_t TexelCount(int width, int height, bool mips);
 TextureData BuildTexture(const Image& image, TextureRole role, bool mips, TexelBits bits = TexelBits::Mixed,
                          int channels = kRgba, bool emission = false);
 
-// A use of a texture by a material.
-struct TextureSlot {
+// A texture as one material reads it.
+struct BoundTexture {
   const TextureData* data = nullptr;  // null: the texture is absent, factors alone count
   Sampler sampler;
   int uv_slot = 0;  // which of the interpolated UV sets
@@ -93,6 +85,6 @@ struct TextureSlot {
 };
 
 // KHR_texture_transform as a 2 x 3 matrix: translation * rotation * scale, counter-clockwise with v down.
-void SetTransform(const TextureRef& ref, TextureSlot& slot);
+void SetTransform(const TextureRef& ref, BoundTexture& texture);
 
 }  // namespace facet

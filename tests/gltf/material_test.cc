@@ -25,7 +25,7 @@ TEST(MaterialFile, DefaultsAreTheSpecifications) {
   EXPECT_EQ(material.alpha_mode, AlphaMode::Opaque);
   EXPECT_EQ(material.alpha_cutoff, 0.5f);
   EXPECT_FALSE(material.double_sided);
-  EXPECT_FALSE(material.unlit);
+  EXPECT_EQ(material.model, ShadingModel::MetallicRoughness);
   EXPECT_FALSE(material.base_color_texture);
   EXPECT_FALSE(material.normal_texture);
 }
@@ -63,7 +63,7 @@ TEST(MaterialFile, EveryMember) {
   EXPECT_EQ(material.alpha_mode, AlphaMode::Mask);
   EXPECT_EQ(material.alpha_cutoff, 0.75f);
   EXPECT_TRUE(material.double_sided);
-  EXPECT_TRUE(material.unlit);
+  EXPECT_EQ(material.model, ShadingModel::Unlit);
 }
 
 TEST(MaterialFile, FactorsOutOfRangeAreClampedWithAWarning) {

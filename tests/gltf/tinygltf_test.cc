@@ -269,7 +269,7 @@ void ExpectSameMaterials(const tinygltf::Model& model, const Scene& scene) {
     EXPECT_EQ(ours.double_sided, theirs.doubleSided);
     EXPECT_EQ(ours.normal_scale, static_cast<float>(theirs.normalTexture.scale));
     EXPECT_EQ(ours.occlusion_strength, Clamped(theirs.occlusionTexture.strength));
-    EXPECT_EQ(ours.unlit, theirs.extensions.contains("KHR_materials_unlit"));
+    EXPECT_EQ(ours.model == ShadingModel::Unlit, theirs.extensions.contains("KHR_materials_unlit"));
     ExpectSameTexture(ours.base_color_texture, pbr.baseColorTexture, "base colour");
     ExpectSameTexture(ours.metallic_roughness_texture, pbr.metallicRoughnessTexture, "metallic-roughness");
     ExpectSameTexture(ours.normal_texture, theirs.normalTexture, "normal");

@@ -43,8 +43,7 @@ HWY_INLINE void ShadeOne(const ShadingTask& task, int first) {
   in.occlusion = number(5);
   in.emissive = vector(6);
   in.normal = vector(9);
-  const Vec3<T> out =
-      ShadeMetallicRoughness(in, vector(12), vector(15), LightingView<T>(*task.lighting));
+  const Vec3<T> out = ShadeClosure(in, vector(12), vector(15), LightingView<T>(*task.lighting));
   StoreAs(out.x, task.out + first);
   StoreAs(out.y, task.out + task.count + first);
   StoreAs(out.z, task.out + 2 * task.count + first);

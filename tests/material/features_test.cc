@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "material/slots.h"
+
 namespace facet {
 namespace {
 
@@ -18,33 +20,43 @@ Material Textured() {
 
 TEST(MaterialFeatures, DefaultMaterialIsLitAlone) { EXPECT_EQ(FeaturesOf(Material{}), kLit); }
 
+TEST(MaterialFeatures, WhatIsNotAllMetalHasADiffuseLobe) {
+  Material m;
+  m.metallic_factor = 0.9f;
+  EXPECT_EQ(FeaturesOf(m), kLit | kDiffuseLobe);
+  m.metallic_factor = 1.0f;
+  m.metallic_roughness_texture.texture = 0;
+  EXPECT_NE(FeaturesOf(m) & kDiffuseLobe, 0u);
+}
+
 TEST(MaterialFeatures, EverythingIsSeen) {
-  EXPECT_EQ(FeaturesOf(Textured()), kLit | kBaseColorTexture | kMetallicRoughnessTexture | kNormalTexture |
-                                        kOcclusionTexture | kEmissiveTexture | kEmission);
+  EXPECT_EQ(FeaturesOf(Textured()), kLit | BitOf(Slot::BaseColor) | BitOf(Slot::MetallicRoughness) |
+                                        BitOf(Slot::Normal) | BitOf(Slot::Occlusion) | BitOf(Slot::Emissive) |
+                                        kEmission | kTangentSpace | kDiffuseLobe);
 }
 
 TEST(MaterialFeatures, WhatCannotShowIsLeftOut) {
   Material m = Textured();
   m.emissive_strength = 0.0f;
-  EXPECT_EQ(FeaturesOf(m) & (kEmission | kEmissiveTexture), 0u);
+  EXPECT_EQ(FeaturesOf(m) & (kEmission | BitOf(Slot::Emissive)), 0u);
   m = Textured();
   m.occlusion_strength = 0.0f;
-  EXPECT_EQ(FeaturesOf(m) & kOcclusionTexture, 0u);
+  EXPECT_EQ(FeaturesOf(m) & BitOf(Slot::Occlusion), 0u);
   m = Textured();
   m.metallic_factor = m.roughness_factor = 0.0f;
-  EXPECT_EQ(FeaturesOf(m) & kMetallicRoughnessTexture, 0u);
+  EXPECT_EQ(FeaturesOf(m) & BitOf(Slot::MetallicRoughness), 0u);
   m.roughness_factor = 0.1f;
-  EXPECT_NE(FeaturesOf(m) & kMetallicRoughnessTexture, 0u);
+  EXPECT_NE(FeaturesOf(m) & BitOf(Slot::MetallicRoughness), 0u);
 }
 
 TEST(MaterialFeatures, UnlitKeepsColourAndCoverageOnly) {
   Material m = Textured();
-  m.unlit = true;
+  m.model = ShadingModel::Unlit;
   m.double_sided = true;
   m.alpha_mode = AlphaMode::Mask;
-  EXPECT_EQ(FeaturesOf(m), kBaseColorTexture | kAlphaTest | kDoubleSided);
+  EXPECT_EQ(FeaturesOf(m), BitOf(Slot::BaseColor) | kAlphaTest | kDoubleSided);
   m.alpha_mode = AlphaMode::Blend;
-  EXPECT_EQ(FeaturesOf(m), kBaseColorTexture | kAlphaBlend | kDoubleSided);
+  EXPECT_EQ(FeaturesOf(m), BitOf(Slot::BaseColor) | kAlphaBlend | kDoubleSided);
 }
 
 }  // namespace

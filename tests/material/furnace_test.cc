@@ -47,7 +47,7 @@ double Albedo(const MaterialInputs<double>& in, double n_dot_v, const LightingDa
   const Vec3<double> view = {std::sqrt(1.0 - n_dot_v * n_dot_v), 0.0, n_dot_v};
   const auto closure = lanes::MakeClosure(in, view, lighting);
   constexpr int kPolar = 220, kAzimuth = 48;
-  const double low = std::log(closure.alpha * 0.02), high = std::log(3e4);
+  const double low = std::log(closure.specular.alpha * 0.02), high = std::log(3e4);
   const double step = (high - low) / kPolar;
   double sum = 0.0;
   for (int i = 0; i < kPolar; ++i) {
@@ -119,8 +119,7 @@ TEST(WhiteFurnace, ConstantEnvironment) {
     for (double metallic : kMetallic) {
       for (double n_dot_v : kNDotV) {
         const Vec3<double> view = {std::sqrt(1.0 - n_dot_v * n_dot_v), 0.0, n_dot_v};
-        const Vec3<double> out =
-            lanes::ShadeMetallicRoughness(White(metallic, roughness), view, {0.0, 0.0, 0.0}, lighting);
+        const Vec3<double> out = lanes::ShadeClosure(White(metallic, roughness), view, {0.0, 0.0, 0.0}, lighting);
         const double reflected[3] = {out.x / 3.0, out.y / 6.0, out.z / 1.5};
         for (double share : reflected) {
           EXPECT_GE(share, 0.98) << roughness << " " << metallic << " " << n_dot_v;
@@ -163,7 +162,7 @@ TEST(Closure, OcclusionDimsTheEnvironmentAlone) {
   const auto shade = [&](const EnvironmentMap* map, double occlusion) {
     const LightingData data = MakeLightingData(lights, map);
     in.occlusion = occlusion;
-    return lanes::ShadeMetallicRoughness(in, view, {0.0, 0.0, -1.0}, LightingView<double>(data));
+    return lanes::ShadeClosure(in, view, {0.0, 0.0, -1.0}, LightingView<double>(data));
   };
   const Vec3<double> punctual = shade(nullptr, 1.0), lit = shade(environment.get(), 1.0);
   EXPECT_EQ(shade(nullptr, 0.0).y, punctual.y);

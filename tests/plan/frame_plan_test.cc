@@ -60,7 +60,7 @@ TEST(FramePlan, MipFilterIsABoundOnWhatSamplersAskFor) {
       RenderSettings settings = StudioSettings();
       settings.mip_filter = bound;
       const FramePlan plan = PlanOf(scene, settings);
-      EXPECT_EQ(plan.materials[0].frame.base_color_texture.sampler.mip, std::min(asked, bound));
+      EXPECT_EQ(plan.materials[0].frame.Texture(Slot::BaseColor).sampler.mip, std::min(asked, bound));
       EXPECT_EQ(plan.textures[0].mips, std::min(asked, bound) != MipFilter::None);
     }
   }
@@ -94,7 +94,8 @@ TEST(FramePlan, EachFeatureIsThereWhenSomethingNeedsIt) {
                          p.colors.assign(p.positions.size(), glm::vec4(1.0f));
                        }),
                        "vertex colours"));
-  EXPECT_TRUE(LeftOut(with([](Scene& s, RenderSettings&) { s.materials[0].unlit = true; }), "environment light"));
+  EXPECT_TRUE(LeftOut(with([](Scene& s, RenderSettings&) { s.materials[0].model = ShadingModel::Unlit; }),
+                      "environment light"));
   EXPECT_TRUE(LeftOut(with([](Scene&, RenderSettings& s) { s.environment.kind = EnvironmentSettings::Kind::None; }),
                       "environment light"));
 }
@@ -116,9 +117,9 @@ TEST(FramePlan, TexturesAreSharedByRoleAndUvSetsByNumber) {
   ASSERT_EQ(plan.materials.size(), 1u);
   const PlannedMaterial& planned = plan.materials[0];
   EXPECT_EQ(planned.frame.uv_slots, 2);
-  EXPECT_EQ(planned.frame.uv_sets[planned.frame.base_color_texture.uv_slot], 0);
-  EXPECT_EQ(planned.frame.uv_sets[planned.frame.metallic_roughness_texture.uv_slot], 2);
-  EXPECT_EQ(planned.frame.uv_sets[planned.frame.occlusion_texture.uv_slot], 2);
+  EXPECT_EQ(planned.frame.uv_sets[planned.frame.Texture(Slot::BaseColor).uv_slot], 0);
+  EXPECT_EQ(planned.frame.uv_sets[planned.frame.Texture(Slot::MetallicRoughness).uv_slot], 2);
+  EXPECT_EQ(planned.frame.uv_sets[planned.frame.Texture(Slot::Occlusion).uv_slot], 2);
   EXPECT_EQ(planned.textures[1], planned.textures[2]);
   EXPECT_EQ(planned.textures[4], -1);
 }

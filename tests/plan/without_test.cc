@@ -233,7 +233,7 @@ TEST(OmitUnused, FalseUsesMoreForTheSameBits) {
       if (feature != Feature::EnvironmentLight) TakeOut(feature, plain, settings);
     }
     Scene unlit = plain;
-    for (Material& m : unlit.materials) m.unlit = true;
+    for (Material& m : unlit.materials) m.model = ShadingModel::Unlit;
     const Scene rich = RichScene();
     for (const Scene* scene : {&std::as_const(plain), &std::as_const(unlit), &rich}) {
       settings.omit_unused = true;

@@ -93,8 +93,9 @@ TEST(Contract, NumbersThatAreNotFiniteDoNotReachTheFilm) {
     std::function<void(Material&, glm::vec4&)> spoil;
   };
   const Case cases[] = {
-      {"unlit colour NaN", true, [](Material& m, glm::vec4& color) { m.unlit = true, color.g = kNan; }},
-      {"unlit colour infinite", true, [](Material& m, glm::vec4& color) { m.unlit = true, color.r = kInfinity; }},
+      {"unlit colour NaN", true, [](Material& m, glm::vec4& color) { m.model = ShadingModel::Unlit, color.g = kNan; }},
+      {"unlit colour infinite", true,
+       [](Material& m, glm::vec4& color) { m.model = ShadingModel::Unlit, color.r = kInfinity; }},
       {"emission overflows", true,
        [](Material& m, glm::vec4&) { m.emissive_factor.r = 1e30f, m.emissive_strength = 1e30f; }},
       {"colour NaN", false, [](Material&, glm::vec4& color) { color = glm::vec4(kNan); }},
@@ -228,7 +229,7 @@ TEST(Contract, PicturesOfWhatIsNotVisibleAreNotDecoded) {
   EXPECT_EQ(render([](Scene& s) { std::swap(s.materials[0].base_color_texture, s.materials[0].emissive_texture); }), 0)
       << "emission of nothing";
   EXPECT_EQ(render([](Scene& s) {
-              s.materials[0].unlit = true;
+              s.materials[0].model = ShadingModel::Unlit;
               std::swap(s.materials[0].base_color_texture, s.materials[0].normal_texture);
             }),
             0)
@@ -279,6 +280,24 @@ class Gradient : public FragmentShader {
   }
   mutable std::atomic<std::uint64_t> fragments{0}, calls{0};
 };
+
+// A shader of one material leaves the others to their models, or to the shader of all.
+TEST(Contract, AShaderOfOnesOwnMayBeOneMaterials) {
+  const Gradient one, all;
+  Scene scene;
+  Add(scene, Rectangle(-1, -1, 0, 1), AddMaterial(scene, Unlit(glm::vec4(1.0f, 0.0f, 0.0f, 1.0f))));
+  Add(scene, Rectangle(0, -1, 1, 1), AddMaterial(scene, Unlit(glm::vec4(0.0f, 1.0f, 0.0f, 1.0f))));
+  RenderSettings settings = Settings(40, 40, 1, Orthographic(1.0));
+  settings.material_shaders = {nullptr, &one};
+  const Film film = Render(scene, settings);
+  EXPECT_EQ(one.fragments, 800u);
+  EXPECT_EQ(film.pixels[5], glm::vec4(1.0f, 0.0f, 0.0f, 1.0f));
+  EXPECT_EQ(film.pixels[35], glm::vec4(35.5f, 0.5f, 0.5f, 1.0f));
+  settings.shader = &all;
+  Render(scene, settings);
+  EXPECT_EQ(one.fragments, 1600u);
+  EXPECT_EQ(all.fragments, 800u);
+}
 
 TEST(Contract, AShaderOfOnesOwnSeesEveryFragment) {
   const Gradient shader;

@@ -59,7 +59,7 @@ inline int AddMaterial(Scene& scene, const Material& material) {
 
 inline Material Unlit(const glm::vec4& color, AlphaMode mode = AlphaMode::Opaque) {
   Material material;
-  material.unlit = true;
+  material.model = ShadingModel::Unlit;
   material.base_color_factor = color;
   material.alpha_mode = mode;
   material.double_sided = true;

@@ -16,7 +16,7 @@ constexpr int kSize = 64;
 // What tiles are shaded with, as a shader of a user's own: those are given all lights.
 class AllLights final : public FragmentShader {
  public:
-  void Shade(const ShadeTask& task) const override { ShadeMetallicRoughnessFragments(task); }
+  void Shade(const ShadeTask& task) const override { ShadeFragments(task); }
 };
 
 void AddLight(Scene& scene, const glm::dvec3& place, float range) {

@@ -64,7 +64,7 @@ TEST(Picture, PointsAndLinesWithoutNormalsEmit) {
       for (const bool textured : {false, true}) {
         Scene scene;
         Material material;
-        material.unlit = unlit;
+        material.model = unlit ? ShadingModel::Unlit : ShadingModel::MetallicRoughness;
         material.base_color_factor = {0.25f, 0.5f, 0, 1};
         material.emissive_factor = {0, 0.25f, 0.5f};
         material.emissive_strength = 2.0f;

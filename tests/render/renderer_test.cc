@@ -213,7 +213,7 @@ TEST(Renderer, TriesAgainAFileThatIsThereLater) {
       "accessors":[{"componentType":5126,"count":3,"type":"VEC3"}],"images":[{"uri":"t.png"}],"textures":[{"source":0}],
       "materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}]})";
   LoadedScene loaded = LoadGltf(folder / "s.gltf");
-  loaded.scene.materials.at(0).unlit = true;
+  loaded.scene.materials.at(0).model = ShadingModel::Unlit;
   Primitive& p = loaded.scene.meshes.at(0).primitives.at(0);
   p.positions = {{-9, -9, 0}, {9, -9, 0}, {0, 9, 0}};
   p.tex_coords = {{{0, 0}, {1, 0}, {0, 1}}};

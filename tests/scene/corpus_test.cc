@@ -67,7 +67,8 @@ void ExpectPromises(const Scene& scene, const PosedScene& posed) {
     const bool triangles = ClassOf(geometry.topology) == PrimitiveClass::Triangles;
     const Material material = drawable.material < 0 ? Material() : scene.materials[std::size_t(drawable.material)];
     const int normal_map = material.normal_texture.texture;
-    if (triangles && !material.unlit && normal_map >= 0 && scene.textures[std::size_t(normal_map)].image >= 0) {
+    if (triangles && material.model != ShadingModel::Unlit && normal_map >= 0 &&
+        scene.textures[std::size_t(normal_map)].image >= 0) {
       EXPECT_EQ(geometry.normals.size(), count);
       EXPECT_EQ(geometry.tangents.size(), count);
     }

@@ -76,7 +76,7 @@ TEST(HashScene, EveryNumberOfTheDescriptionCounts) {
       {"base colour", [](Scene& s) { s.materials[0].base_color_factor.w = 0.999f; }},
       {"emission", [](Scene& s) { s.materials[0].emissive_strength = 2.0f; }},
       {"alpha mode", [](Scene& s) { s.materials[0].alpha_mode = AlphaMode::Mask; }},
-      {"unlit", [](Scene& s) { s.materials[0].unlit = true; }},
+      {"unlit", [](Scene& s) { s.materials[0].model = ShadingModel::Unlit; }},
       {"topology", [](Scene& s) { First(s).topology = Topology::Points; }},
       {"material", [](Scene& s) { First(s).material = -1; }},
       {"variant's material", [](Scene& s) { First(s).variant_materials = {0}; }},

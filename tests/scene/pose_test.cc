@@ -293,9 +293,9 @@ TEST(Pose, MakesNoTangentsThatNobodyReads) {
       return geometry != &s.meshes[0].primitives[0];
     };
     EXPECT_EQ(is_completed(scene), topology >= Topology::Triangles);
-    scene.materials[0].unlit = true;
+    scene.materials[0].model = ShadingModel::Unlit;
     EXPECT_FALSE(is_completed(scene)) << "unlit";
-    scene.materials[0].unlit = false;
+    scene.materials[0].model = ShadingModel::MetallicRoughness;
     scene.textures[0].image = -1;
     EXPECT_FALSE(is_completed(scene)) << "a texture without image";
   }

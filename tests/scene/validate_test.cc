@@ -175,7 +175,7 @@ INSTANTIATE_TEST_SUITE_P(
                   [](Scene& s, float v) { s.materials[0].metallic_factor = v; }, kNotInUnit, kUnit},
         Parameter{"roughness", "material 0: roughness factor",
                   [](Scene& s, float v) { s.materials[0].roughness_factor = v; }, kNotInUnit, kUnit},
-        Parameter{"normal_scale", "material 0: the normal scale",
+        Parameter{"normal_scale", "material 0: normal scale",
                   [](Scene& s, float v) { s.materials[0].normal_scale = v; }, kInfinite, kAny},
         Parameter{"occlusion", "material 0: occlusion strength",
                   [](Scene& s, float v) { s.materials[0].occlusion_strength = v; }, kNotInUnit, kUnit},

@@ -10,9 +10,11 @@
 #include <vector>
 
 #include "facet/load.h"
+#include "light/lighting-inl.h"
+#include "material/models/metallic_roughness-inl.h"
 #include "render/hand_built.h"
 #include "shade/interpolate-inl.h"
-#include "shade/metallic_roughness-inl.h"
+#include "shade/material_view-inl.h"
 #include "shade/shade_fragments.h"
 #include "shade/shade_in_double.h"
 #include "shade/triangle_setup.h"
@@ -284,13 +286,14 @@ struct Fragments {
       : setup(count),
         x(count),
         y(count),
-        setups(count * SetupLayout::kStride),
+        setups(count * std::size_t(SetupLayout::Stride(0))),
         red(count),
         green(count),
         blue(count),
         alpha(count) {
     for (std::size_t i = 0; i < count; ++i) setup[i] = std::int32_t(i);
     material.vertex_colors = true;
+    material.model = ShadingModel::Unlit;
   }
   ShadeTask Task() {
     ShadeTask task;
@@ -317,7 +320,7 @@ TEST(DoubleShader, GivesTheExactNumberRoundedOnce) {
   Fragments f(kCount);
   std::vector<float> expected(kCount);
   for (std::size_t i = 0; i < kCount; ++i) {
-    float* setup = &f.setups[i * SetupLayout::kStride];
+    float* setup = &f.setups[i * std::size_t(SetupLayout::Stride(0))];
     f.x[i] = float(random(0, 64)), f.y[i] = float(random(0, 64));
     long double sum = 0, weighted = 0;
     for (int v = 0; v < 3; ++v) {
@@ -337,7 +340,7 @@ TEST(DoubleShader, GivesTheExactNumberRoundedOnce) {
     EXPECT_LE(Ulps(f.red[i], expected[i]), 1) << i;
   }
   EXPECT_LE(inexact, 1u);  // halfway between two floats, to within a double's rounding: one in a hundred million
-  ShadeMetallicRoughnessFragments(f.Task());
+  ShadeFragments(f.Task());
   std::size_t rounded = 0;
   for (std::size_t i = 0; i < kCount; ++i) {
     rounded += f.red[i] != expected[i];
@@ -348,11 +351,11 @@ TEST(DoubleShader, GivesTheExactNumberRoundedOnce) {
 
 TEST(DoubleShader, WhatNoFloatHoldsIsBlackAndCounted) {
   Fragments f(16);
-  f.material.base_color[0] = 2.0f;
+  f.material.factors.base_color[0] = 2.0f;
   const float largest = std::numeric_limits<float>::max();
   const float reds[3] = {largest, std::numeric_limits<float>::quiet_NaN(), 0.25f};
   for (std::size_t i = 0; i < 16; ++i) {
-    float* setup = &f.setups[i * SetupLayout::kStride];
+    float* setup = &f.setups[i * std::size_t(SetupLayout::Stride(0))];
     for (int v = 0; v < 3; ++v) {
       setup[SetupLayout::kPlanes + 3 * v + 2] = 1.0f;
       for (int c = 0; c < 4; ++c) setup[SetupLayout::kColors + 4 * v + c] = c == 0 ? reds[i % 3] : c == 3 ? 3.0f : 0.5f;
@@ -363,7 +366,7 @@ TEST(DoubleShader, WhatNoFloatHoldsIsBlackAndCounted) {
     if (in_double) {
       MakeDoubleShader()->Shade(f.Task());
     } else {
-      ShadeMetallicRoughnessFragments(f.Task());
+      ShadeFragments(f.Task());
     }
     EXPECT_EQ(f.non_finite, 11u) << in_double;  // 6 too large, 5 not a number
     for (std::size_t i = 0; i < 16; ++i) {
@@ -379,7 +382,7 @@ TEST(DoubleShader, WhatNoFloatHoldsIsBlackAndCounted) {
 TEST(DoubleShader, NegativeZeroOfAlphaIsZero) {
   Fragments f(16);
   for (std::size_t i = 0; i < 16; ++i) {
-    float* setup = &f.setups[i * SetupLayout::kStride];
+    float* setup = &f.setups[i * std::size_t(SetupLayout::Stride(0))];
     for (int v = 0; v < 3; ++v) {
       setup[SetupLayout::kPlanes + 3 * v + 2] = 1.0f;
       setup[SetupLayout::kColors + 4 * v + 3] = -0.0f;
@@ -387,7 +390,7 @@ TEST(DoubleShader, NegativeZeroOfAlphaIsZero) {
   }
   MakeDoubleShader()->Shade(f.Task());
   const std::vector<float> in_double = f.alpha;
-  ShadeMetallicRoughnessFragments(f.Task());
+  ShadeFragments(f.Task());
   for (std::size_t i = 0; i < 16; ++i) {
     EXPECT_EQ(std::bit_cast<std::uint32_t>(in_double[i]), 0u) << i;
     EXPECT_EQ(std::bit_cast<std::uint32_t>(f.alpha[i]), 0u) << i;

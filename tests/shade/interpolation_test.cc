@@ -86,7 +86,7 @@ ResolvedCamera CameraAt(const glm::dvec3& eye, const glm::dquat& rotation, bool 
 
 FrameMaterial ReadsEverything() {
   FrameMaterial material;
-  material.features = kLit | kNormalTexture;
+  material.features = kLit | BitOf(Slot::Normal) | kTangentSpace;
   material.vertex_colors = true;
   material.uv_slots = 2;
   material.uv_sets[0] = 1;  // slots need not be in the order of the sets
@@ -99,7 +99,7 @@ std::vector<Attributes> Interpolate(const FrameView& view, const Drawable& place
                                     const TriangleRecord& record, const std::vector<glm::dvec2>& at) {
   const int anchor_x = int(std::floor(at[0].x)) & ~63, anchor_y = int(std::floor(at[0].y)) & ~63;
   const FrameDrawable drawable = MakeFrameDrawable(view, placed);
-  std::vector<float> setup(SetupLayout::kStride, -7.0f);
+  std::vector<float> setup(std::size_t(SetupLayout::Stride(material.uv_slots)), -7.0f);
   TriangleRecord only = record;
   only.drawable = 0;
   const TriangleRecord* const records[] = {&only};

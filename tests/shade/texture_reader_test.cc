@@ -22,9 +22,9 @@ TextureData Bar() {
 class EmissionReader {
  public:
   explicit EmissionReader(const TextureData& data) {
-    material_.features = kEmissiveTexture | kEmission;
-    material_.emissive_texture.data = &data;
-    for (float& factor : material_.emissive) factor = 1.0f;
+    material_.features = BitOf(Slot::Emissive) | kEmission;
+    material_.textures[IndexOf(Slot::Emissive)].data = &data;
+    for (float& factor : material_.factors.emissive) factor = 1.0f;
   }
   void MoveTo(float u) {
     surface_.uv[0] = {u, 0.5f};

@@ -64,7 +64,7 @@ struct Part {
 std::vector<Part> ReadParts(const FrameMaterial& material) {
   std::vector<Part> parts = {{SetupLayout::kPlanes, SetupLayout::kPositions}};
   if (material.Has(kLit)) parts.push_back({SetupLayout::kPositions, SetupLayout::kTangents});
-  if (material.Has(kNormalTexture)) parts.push_back({SetupLayout::kTangents, SetupLayout::kColors});
+  if (material.Has(kTangentSpace)) parts.push_back({SetupLayout::kTangents, SetupLayout::kColors});
   if (material.vertex_colors) parts.push_back({SetupLayout::kColors, SetupLayout::kTexCoords});
   constexpr int kUv = SetupLayout::kTexCoords;
   if (material.uv_slots > 0) parts.push_back({kUv, kUv + 6 * material.uv_slots});
@@ -74,7 +74,7 @@ std::vector<Part> ReadParts(const FrameMaterial& material) {
 std::vector<FrameMaterial> Materials() {
   std::vector<FrameMaterial> materials(4);
   materials[1].features = kLit;
-  materials[2].features = kLit | kNormalTexture;
+  materials[2].features = kLit | BitOf(Slot::Normal) | kTangentSpace;
   materials[2].vertex_colors = true;
   materials[2].uv_slots = 1;
   materials[3].vertex_colors = true;  // unlit
@@ -118,12 +118,14 @@ struct Mixture {
   }
 };
 
+std::size_t StrideOf(const FrameMaterial& material) { return std::size_t(SetupLayout::Stride(material.uv_slots)); }
+
 std::vector<float> SetUpAll(const FrameView& view, const Mixture& scene, const FrameMaterial& material,
                          const std::vector<const TriangleRecord*>& records, std::size_t batch) {
-  std::vector<float> setups(records.size() * SetupLayout::kStride, kUnset);
+  std::vector<float> setups(records.size() * StrideOf(material), kUnset);
   for (std::size_t i = 0; i < records.size(); i += batch) {
     SetUpTriangles({&view, scene.drawables.data(), &material, kAnchorX, kAnchorY, records.data() + i,
-                    std::min(batch, records.size() - i), setups.data() + i * SetupLayout::kStride});
+                    std::min(batch, records.size() - i), setups.data() + i * StrideOf(material)});
   }
   return setups;
 }
@@ -149,7 +151,7 @@ TEST(SetUpTriangles, GivesEachWhatItHasAlone) {
           const std::vector<float> got = SetUpAll(view, scene, material, records, batch);
           for (std::size_t i = 0; i < records.size(); ++i) {
             for (const Part& part : ReadParts(material)) {
-              const std::size_t at = i * SetupLayout::kStride + std::size_t(part.first);
+              const std::size_t at = i * StrideOf(material) + std::size_t(part.first);
               ASSERT_EQ(std::memcmp(&got[at], &expected[at], std::size_t(part.end - part.first) * sizeof(float)), 0)
                   << "record " << i << ", numbers from " << part.first;
             }
@@ -169,6 +171,7 @@ TEST(SetUpTriangles, NormalsThatAreUselessBecomeFlat) {
   std::vector<const TriangleRecord*> records;
   for (const TriangleRecord& r : scene.records) records.push_back(&r);
   const std::vector<float> setups = SetUpAll(view, scene, Materials()[1], records, records.size());
+  const std::size_t stride = StrideOf(Materials()[1]);
   int flat = 0, toward_eye = 0;
   for (std::size_t i = 0; i < records.size(); ++i) {
     const FrameDrawable& drawable = scene.drawables[records[i]->drawable];
@@ -176,7 +179,7 @@ TEST(SetUpTriangles, NormalsThatAreUselessBecomeFlat) {
     const auto vertices = PrimitiveVertices(*drawable.geometry, records[i]->primitive);
     if (std::find(vertices.begin(), vertices.end(), 7u) != vertices.end()) continue;
     const auto vec3 = [&](int at) {
-      const float* p = &setups[i * SetupLayout::kStride + std::size_t(at)];
+      const float* p = &setups[i * stride + std::size_t(at)];
       return glm::dvec3(p[0], p[1], p[2]);
     };
     const glm::dvec3 a = vec3(SetupLayout::kPositions), b = vec3(SetupLayout::kPositions + 3),
@@ -221,7 +224,7 @@ TEST(SetUpTriangles, WhatIsNoNumberTakesItsFirstVertex) {
         const ScopedTarget scoped(target);
         const std::vector<float> setups = SetUpAll(view, broken, Materials()[0], records, records.size());
         for (std::size_t i = 0; i < records.size(); ++i) {
-          const float* planes = &setups[i * SetupLayout::kStride + SetupLayout::kPlanes];
+          const float* planes = &setups[i * StrideOf(Materials()[0]) + SetupLayout::kPlanes];
           const float first[9] = {0, 0, 1, 0, 0, 0, 0, 0, 0};
           ASSERT_TRUE(std::equal(first, first + 9, planes))
               << TargetName(target) << ", NaN in row " << row << ", column " << column << ", record " << i;

@@ -117,7 +117,8 @@ double Albedo(const MaterialInputs<T>& in, float n_dot_v) {
   const double sin_v = std::sqrt(1.0 - double(n_dot_v) * double(n_dot_v));
   const auto closure = lanes::MakeClosure(in, Vec3<T>{T(sin_v), T(0), T(n_dot_v)}, lighting);
   constexpr int kPolar = 220, kAzimuth = 48;
-  const double low = std::log(double(closure.alpha) * 0.02), high = std::log(3e4), step = (high - low) / kPolar;
+  const double low = std::log(double(closure.specular.alpha) * 0.02), high = std::log(3e4),
+               step = (high - low) / kPolar;
   double sum = 0.0;
   for (int i = 0; i < kPolar; ++i) {
     const double theta = std::atan(std::exp(low + (i + 0.5) * step)), s = std::sin(theta), c = std::cos(theta);

@@ -42,7 +42,7 @@ TEST(DarkCells, AreWhereSamplesAreBlack) {
     const TextureData data = Emission(BlackBut(width, height, places), true);
     for (const Wrap wrap : {Wrap::Repeat, Wrap::MirroredRepeat, Wrap::ClampToEdge}) {
       for (const MipFilter mip : {MipFilter::None, MipFilter::Nearest, MipFilter::Linear}) {
-        TextureSlot slot;
+        BoundTexture slot;
         slot.data = &data;
         slot.sampler.wrap_u = slot.sampler.wrap_v = wrap;
         slot.sampler.mip = mip;
@@ -74,7 +74,7 @@ TEST(DarkCells, AreWhereSamplesAreBlack) {
 TEST(DarkCells, AreNotLookedForInOtherTextures) {
   const TextureData data = Emission(BlackBut(256, 256, {{3, 4}}), false);
   EXPECT_EQ(data.dark.width, 0);
-  TextureSlot slot;
+  BoundTexture slot;
   slot.data = &data;
   lanes::TextureTaps<float> taps;
   lanes::MakeTextureTaps<float>(slot, {0.5f, 0.5f}, {0.001f, 0.0f}, {0.0f, 0.001f}, taps);
@@ -105,7 +105,7 @@ TEST(SparseTextures, AreSampledLikeTheOthers) {
   for (std::byte& b : image.bytes) b = std::byte(random() % 3 == 0 ? random() : 0);
   const TextureData plain = Emission(image, false), sparse = Emission(image, true);
   EXPECT_TRUE(sparse.sparse);
-  TextureSlot a, b;
+  BoundTexture a, b;
   a.data = &plain, b.data = &sparse;
   for (int i = 0; i < 1000; ++i) {
     const auto any = [&](float size) { return (float(random() % 2001) / 1000.0f - 1.0f) * size; };
@@ -114,7 +114,7 @@ TEST(SparseTextures, AreSampledLikeTheOthers) {
     ASSERT_EQ(p.x, q.x);
     ASSERT_EQ(p.y, q.y);
     ASSERT_EQ(p.z, q.z);
-    const auto in_lanes = [&](const TextureSlot& slot) {
+    const auto in_lanes = [&](const BoundTexture& slot) {
       const auto c = lanes::SampleTexture<kRgb, lanes::Float>(slot, {uv.x, uv.y}, {dx.x, dx.y}, {dy.x, dy.y});
       float out[lanes::kMaxLanes];
       lanes::Store(c.y, out);

@@ -11,7 +11,7 @@
 namespace facet {
 
 struct SampleTask {
-  const TextureSlot* slot;
+  const BoundTexture* slot;
   const float* in;   // u, v, du/dx, dv/dx, du/dy, dv/dy: arrays of `count`
   int count;         // a multiple of 16
   float* rgba;       // 4 arrays
@@ -75,7 +75,7 @@ struct Answer {
 };
 
 // Asks all available targets, which must answer with the same bits.
-std::vector<Answer> Sample(const TextureSlot& slot, const std::vector<Query>& queries) {
+std::vector<Answer> Sample(const BoundTexture& slot, const std::vector<Query>& queries) {
   const int n = int(queries.size() + 15) / 16 * 16;
   std::vector<float> in(std::size_t(6 * n)), out(std::size_t(8 * n)), first;
   for (int i = 0; i < int(queries.size()); ++i) {
@@ -171,7 +171,7 @@ TEST(SampleTexture, NearestAndLinearOfAllWraps) {
     for (Wrap wrap_u : {Wrap::Repeat, Wrap::MirroredRepeat, Wrap::ClampToEdge}) {
       for (Wrap wrap_v : {Wrap::Repeat, Wrap::MirroredRepeat, Wrap::ClampToEdge}) {
         for (Filter filter : {Filter::Nearest, Filter::Linear}) {
-          TextureSlot slot;
+          BoundTexture slot;
           slot.data = &data;
           slot.sampler = {wrap_u, wrap_v, filter, filter, MipFilter::None};
           std::vector<Query> queries;
@@ -214,7 +214,7 @@ TEST(SampleTexture, CoordinatesThatAreNotFiniteReadATexel) {
   const TextureData data = BuildTexture(Noise(8, 8, 5), TextureRole::Data, true);
   const float nan = std::numeric_limits<float>::quiet_NaN(), infinity = std::numeric_limits<float>::infinity();
   for (Wrap wrap : {Wrap::Repeat, Wrap::MirroredRepeat, Wrap::ClampToEdge}) {
-    TextureSlot slot;
+    BoundTexture slot;
     slot.data = &data;
     slot.sampler.wrap_u = slot.sampler.wrap_v = wrap;
     std::vector<Query> queries;
@@ -248,7 +248,7 @@ TEST(SampleTexture, TheFootprintsAxesAreSingularValues) {
   for (const auto& size : sizes) {
     const TextureData data = BuildTexture(Noise(size[0], size[1], 6), TextureRole::Data, true);
     for (float max_anisotropy : {1.0f, 4.0f, 16.0f}) {
-      TextureSlot slot;
+      BoundTexture slot;
       slot.data = &data;
       slot.max_anisotropy = max_anisotropy;
       std::vector<Query> queries;
@@ -319,7 +319,7 @@ TEST(SampleTexture, SmoothPicturesAreAveragedOverTheFootprint) {
     const TextureData data = BuildTexture(
         Picture8(width, height, [&](int x, int y, int) { return wave((x + 0.5) / width, (y + 0.5) / height); }),
         TextureRole::Data, true);
-    TextureSlot slot;
+    BoundTexture slot;
     slot.data = &data;
     slot.max_anisotropy = 16.0f;
     std::vector<Query> queries;
@@ -360,7 +360,7 @@ TEST(SampleTexture, MinifiedPatternsDoNotAlias) {
                    TextureRole::Data, true);
   Uniform random(9);
   for (const TextureData* data : {&checker, &zone}) {
-    TextureSlot slot;
+    BoundTexture slot;
     slot.data = data;
     slot.max_anisotropy = 16.0f;
     slot.sampler.wrap_u = slot.sampler.wrap_v = Wrap::Repeat;
@@ -390,7 +390,7 @@ TEST(SampleTexture, MinifiedPatternsDoNotAlias) {
 
 TEST(SampleTexture, MagnifiedIsBilinearInLevelZero) {
   const TextureData data = BuildTexture(Noise(32, 16, 12), TextureRole::Data, true);
-  TextureSlot slot;
+  BoundTexture slot;
   slot.data = &data;
   Uniform random(13);
   std::vector<Query> queries;
@@ -413,7 +413,7 @@ TEST(SampleTexture, ConstantsAreExact) {
     for (int code = 0; code < 256; code += 3) {
       const Image image = Picture8(24, 16, [&](int, int, int c) { return (c % 2 == 0 ? code : 255 - code) / 255.0; });
       const TextureData data = BuildTexture(image, TextureRole::Data, true, bits);
-      TextureSlot slot;
+      BoundTexture slot;
       slot.data = &data;
       slot.max_anisotropy = 16.0f;
       std::vector<Query> queries;
@@ -441,7 +441,7 @@ TEST(SampleTexture, MipFiltersChooseTheirLevels) {
   for (MipFilter mip : {MipFilter::None, MipFilter::Nearest, MipFilter::Linear}) {
     for (Filter magnification : {Filter::Nearest, Filter::Linear}) {
       for (Filter minification : {Filter::Nearest, Filter::Linear}) {
-        TextureSlot slot;
+        BoundTexture slot;
         slot.data = &data;
         slot.sampler = {Wrap::Repeat, Wrap::MirroredRepeat, magnification, minification, mip};
         slot.max_anisotropy = 1.0f;
@@ -496,7 +496,7 @@ TEST(SetTransform, IsTranslationTimesRotationTimesScale) {
     const glm::dmat3 translation(1, 0, 0, 0, 1, 0, ref.offset.x, ref.offset.y, 1), rotation(c, -s, 0, s, c, 0, 0, 0, 1),
         scale(ref.scale.x, 0, 0, 0, ref.scale.y, 0, 0, 0, 1);
     const glm::dmat3 all = translation * rotation * scale;
-    TextureSlot slot;
+    BoundTexture slot;
     SetTransform(ref, slot);
     for (int row = 0; row < 2; ++row) {
       for (int column = 0; column < 3; ++column) ASSERT_NEAR(slot.transform[3 * row + column], all[column][row], 1e-6);
@@ -508,7 +508,7 @@ TEST(SetTransform, QuarterTurnsAreCounterClockwiseOnThePicture) {
   // A quarter turn with v down: what lay at u = 1 on the top edge, (1, 0), is read from (0, -1): one texture height up.
   TextureRef ref;
   ref.rotation = 1.5707963267948966f;
-  TextureSlot slot;
+  BoundTexture slot;
   SetTransform(ref, slot);
   EXPECT_NEAR(slot.transform[0] * 1.0 + slot.transform[1] * 0.0, 0.0, 1e-6);
   EXPECT_NEAR(slot.transform[3] * 1.0 + slot.transform[4] * 0.0, -1.0, 1e-6);
@@ -519,7 +519,7 @@ TEST(SetTransform, QuarterTurnsAreCounterClockwiseOnThePicture) {
 // The transform moves coordinates and derivatives alike.
 TEST(SetTransform, AppliesToCoordinatesAndDerivatives) {
   const TextureData data = BuildTexture(Noise(64, 64, 17), TextureRole::Data, true);
-  TextureSlot plain, turned;
+  BoundTexture plain, turned;
   plain.data = turned.data = &data;
   TextureRef ref;
   ref.offset = {0.3f, -0.2f};

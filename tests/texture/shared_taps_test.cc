@@ -21,7 +21,7 @@ Image Pattern(int width, int height, unsigned seed) {
 TEST(SharedTaps, ServeTexturesThatAreSampledAlike) {
   const TextureData first = BuildTexture(Pattern(64, 32, 5), TextureRole::Data, true);
   const TextureData second = BuildTexture(Pattern(64, 32, 6), TextureRole::Color, true);
-  TextureSlot a, b;
+  BoundTexture a, b;
   a.data = &first, b.data = &second;
   ASSERT_TRUE(lanes::HaveSameTaps(a, b));
   const lanes::Vec2<float> uv{0.3f, 0.8f}, dx{0.2f, 0.01f}, dy{-0.01f, 0.1f};
@@ -46,7 +46,7 @@ TEST(SharedTaps, TexturesThatAreReadTogetherAreThoseThatAreReadAlone) {
       BuildTexture(Pattern(64, 32, 9), TextureRole::Color, true, TexelBits::Mixed, kRgb)};
   const TextureData* together[5];
   for (int k = 0; k < 5; ++k) together[k] = &textures[k];
-  TextureSlot slot;
+  BoundTexture slot;
   slot.data = together[0];
   lanes::TextureTaps<float> taps;
   lanes::MakeTextureTaps<float>(slot, {0.3f, 0.8f}, {0.2f, 0.01f}, {-0.01f, 0.1f}, taps);
@@ -64,7 +64,7 @@ TEST(SharedTaps, TexturesThatAreReadTogetherAreThoseThatAreReadAlone) {
 // However many places are weighed: each bilinear share is right to 1/16384, and so are the three weights split off it.
 TEST(WholeWeights, AreTheExactOnesButForTheirRounding) {
   const TextureData data = BuildTexture(Pattern(64, 32, 11), TextureRole::Data, true);
-  TextureSlot slot;
+  BoundTexture slot;
   slot.data = &data;
   slot.max_anisotropy = 16.0f;
   int most_taps = 0;
@@ -95,26 +95,26 @@ TEST(SharedTaps, AreRefusedWhereAnythingDiffersThatPlacesTexels) {
   const TextureData narrow = BuildTexture(Pattern(32, 32, 5), TextureRole::Data, true);
   const TextureData low = BuildTexture(Pattern(64, 16, 5), TextureRole::Data, true);
   const TextureData one_level = BuildTexture(Pattern(64, 32, 5), TextureRole::Data, false);
-  TextureSlot a;
+  BoundTexture a;
   a.data = &first;
   const auto differs = [&](auto change) {
-    TextureSlot b = a;
+    BoundTexture b = a;
     change(b);
     return !lanes::HaveSameTaps(a, b) && !lanes::HaveSameTaps(b, a);
   };
-  EXPECT_TRUE(differs([&](TextureSlot& b) { b.data = &narrow; }));
-  EXPECT_TRUE(differs([&](TextureSlot& b) { b.data = &low; }));
-  EXPECT_TRUE(differs([&](TextureSlot& b) { b.data = &one_level; }));
-  EXPECT_TRUE(differs([](TextureSlot& b) { b.uv_slot = 1; }));
+  EXPECT_TRUE(differs([&](BoundTexture& b) { b.data = &narrow; }));
+  EXPECT_TRUE(differs([&](BoundTexture& b) { b.data = &low; }));
+  EXPECT_TRUE(differs([&](BoundTexture& b) { b.data = &one_level; }));
+  EXPECT_TRUE(differs([](BoundTexture& b) { b.uv_slot = 1; }));
   for (int i = 0; i < 6; ++i) {
-    EXPECT_TRUE(differs([&](TextureSlot& b) { b.transform[i] += 0.5f; })) << i;
+    EXPECT_TRUE(differs([&](BoundTexture& b) { b.transform[i] += 0.5f; })) << i;
   }
-  EXPECT_TRUE(differs([](TextureSlot& b) { b.max_anisotropy = 4.0f; }));
-  EXPECT_TRUE(differs([](TextureSlot& b) { b.sampler.wrap_u = Wrap::ClampToEdge; }));
-  EXPECT_TRUE(differs([](TextureSlot& b) { b.sampler.wrap_v = Wrap::MirroredRepeat; }));
-  EXPECT_TRUE(differs([](TextureSlot& b) { b.sampler.mip = MipFilter::Nearest; }));
-  EXPECT_TRUE(differs([](TextureSlot& b) { b.sampler.minification = Filter::Nearest; }));
-  EXPECT_TRUE(differs([](TextureSlot& b) { b.sampler.magnification = Filter::Nearest; }));
+  EXPECT_TRUE(differs([](BoundTexture& b) { b.max_anisotropy = 4.0f; }));
+  EXPECT_TRUE(differs([](BoundTexture& b) { b.sampler.wrap_u = Wrap::ClampToEdge; }));
+  EXPECT_TRUE(differs([](BoundTexture& b) { b.sampler.wrap_v = Wrap::MirroredRepeat; }));
+  EXPECT_TRUE(differs([](BoundTexture& b) { b.sampler.mip = MipFilter::Nearest; }));
+  EXPECT_TRUE(differs([](BoundTexture& b) { b.sampler.minification = Filter::Nearest; }));
+  EXPECT_TRUE(differs([](BoundTexture& b) { b.sampler.magnification = Filter::Nearest; }));
 }
 
 }  // namespace

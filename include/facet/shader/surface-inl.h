@@ -13,7 +13,7 @@ HWY_BEFORE_NAMESPACE();
 namespace facet {
 namespace HWY_NAMESPACE {
 
-inline constexpr int kSurfaceUvSlots = 5;
+inline constexpr int kSurfaceUvSlots = 32;  // more than any material has textures
 
 // A point of a surface under one fragment. World axes; unit vectors are unit.
 template <class T>

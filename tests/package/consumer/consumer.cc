@@ -10,7 +10,7 @@ int main() {
   facet::Scene scene;
   facet::Material red;
   red.base_color_factor = {1.0f, 0.0f, 0.0f, 1.0f};
-  red.unlit = true;
+  red.model = facet::ShadingModel::Unlit;
   scene.materials.push_back(red);
 
   facet::Primitive square;  // 2 by 2, facing +Z

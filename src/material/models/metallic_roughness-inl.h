@@ -1,0 +1,29 @@
+// glTF 2.0's material as a fragment shader.
+
+#if defined(FACET_MATERIAL_MODELS_METALLIC_ROUGHNESS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef FACET_MATERIAL_MODELS_METALLIC_ROUGHNESS_INL_H_
+#undef FACET_MATERIAL_MODELS_METALLIC_ROUGHNESS_INL_H_
+#else
+#define FACET_MATERIAL_MODELS_METALLIC_ROUGHNESS_INL_H_
+#endif
+
+#include "facet/shader/surface-inl.h"
+#include "material/closure-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace facet {
+namespace HWY_NAMESPACE {
+
+struct MetallicRoughness {
+  template <class T, class Material, class Lighting>
+  HWY_INLINE Shaded<T> operator()(const Surface<T>& surface, const Material& material, const Lighting& lighting) const {
+    const MaterialInputs<T> inputs = material.Inputs(surface);
+    return {ShadeClosure(inputs, surface.view, surface.position, lighting), inputs.alpha_coverage};
+  }
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace facet
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,29 @@
+// Base colour as it is (KHR_materials_unlit). Also what points and lines without normals show, with their emission
+// (glTF 2.0 specification, 3.9.6).
+
+#if defined(FACET_MATERIAL_MODELS_UNLIT_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef FACET_MATERIAL_MODELS_UNLIT_INL_H_
+#undef FACET_MATERIAL_MODELS_UNLIT_INL_H_
+#else
+#define FACET_MATERIAL_MODELS_UNLIT_INL_H_
+#endif
+
+#include "facet/shader/surface-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace facet {
+namespace HWY_NAMESPACE {
+
+struct Unlit {
+  template <class T, class Material, class Lighting>
+  HWY_INLINE Shaded<T> operator()(const Surface<T>& surface, const Material& material, const Lighting&) const {
+    const Vec4<T> color = material.BaseColor(surface);
+    return {material.Emits() ? Xyz(color) + material.Emissive(surface) : Xyz(color), color.w};
+  }
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace facet
+HWY_AFTER_NAMESPACE();
+
+#endif

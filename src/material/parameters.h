@@ -1,0 +1,68 @@
+// The table of material parameters: what a glTF file may state of a material besides its name, where it stands there,
+// and which values are allowed. The loader, validation and the hash of a scene loop over it.
+#pragma once
+
+#include <limits>
+
+#include "facet/scene.h"
+#include "material/slots.h"
+
+namespace facet {
+
+// Inclusive; an infinite end stands for every finite number.
+struct ParameterRange {
+  float low = 0.0f, high = 1.0f;
+};
+
+template <class Value>
+struct Parameter {
+  const char* name;        // in messages
+  const char* gltf_group;  // the object within a glTF material that has it, or the extension; null: the material itself
+  const char* gltf_name;
+  Value Material::*member;
+  ParameterRange range = {};  // of numbers
+};
+
+// Calls visit(Parameter<Value>) for each, in the order in which the hash of a scene reads them.
+template <class Visit>
+constexpr void ForEachParameter(const Visit& visit) {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  constexpr ParameterRange kShare{0.0f, 1.0f}, kPositive{0.0f, kInfinity}, kAny{-kInfinity, kInfinity};
+  constexpr const char* kPbr = "pbrMetallicRoughness";
+  const auto texture = [&](Slot slot) {
+    const SlotInfo& info = InfoOf(slot);
+    visit(Parameter<TextureRef>{info.name, info.gltf_group, info.gltf_name, info.ref});
+  };
+  visit(Parameter<glm::vec4>{"base colour factor", kPbr, "baseColorFactor", &Material::base_color_factor, kShare});
+  texture(Slot::BaseColor);
+  visit(Parameter<float>{"metallic factor", kPbr, "metallicFactor", &Material::metallic_factor, kShare});
+  visit(Parameter<float>{"roughness factor", kPbr, "roughnessFactor", &Material::roughness_factor, kShare});
+  texture(Slot::MetallicRoughness);
+  texture(Slot::Normal);
+  visit(Parameter<float>{"normal scale", "normalTexture", "scale", &Material::normal_scale, kAny});
+  texture(Slot::Occlusion);
+  visit(Parameter<float>{"occlusion strength", "occlusionTexture", "strength", &Material::occlusion_strength, kShare});
+  // Above 1 the core specification forbids, but exporters older than KHR_materials_emissive_strength wrote it.
+  visit(Parameter<glm::vec3>{"emissive factor", nullptr, "emissiveFactor", &Material::emissive_factor, kPositive});
+  texture(Slot::Emissive);
+  visit(Parameter<float>{"emissive strength", "KHR_materials_emissive_strength", "emissiveStrength",
+                         &Material::emissive_strength, kPositive});
+  visit(Parameter<AlphaMode>{"alpha mode", nullptr, "alphaMode", &Material::alpha_mode});
+  visit(Parameter<float>{"alpha cutoff", nullptr, "alphaCutoff", &Material::alpha_cutoff, kPositive});
+  visit(Parameter<bool>{"double-sidedness", nullptr, "doubleSided", &Material::double_sided});
+  visit(Parameter<ShadingModel>{"shading model", nullptr, nullptr, &Material::model});
+}
+
+// The parameters as the shading stage reads them.
+struct MaterialFactors {
+  float base_color[4] = {1, 1, 1, 1};
+  float metallic = 1.0f;
+  float perceptual_roughness = 1.0f;
+  float normal_scale = 1.0f;
+  float occlusion_strength = 1.0f;
+  float emissive[3] = {0, 0, 0};  // factor times strength
+  float alpha_cutoff = 0.5f;
+};
+MaterialFactors FactorsOf(const Material& material);
+
+}  // namespace facet
