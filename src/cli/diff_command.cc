@@ -10,11 +10,11 @@
 #include "base/output_file.h"
 #include "base/printable.h"
 #include "cli/console.h"
-#include "cli/output_path.h"
 #include "facet/error.h"
 #include "facet/film.h"
 #include "facet/load.h"
 #include "facet/version.h"
+#include "image/formats.h"
 
 namespace facet::cli {
 namespace {
@@ -102,7 +102,7 @@ std::string Json(const DiffOptions& options, const ImageDifference& d, const std
 
 int RunDiff(const DiffOptions& options) {
   if (options.output) {
-    if (FormatOf(*options.output).linear) {
+    if (FormatToWrite(*options.output).IsLinear()) {
       throw Error(ErrorCode::InvalidUsage, "a heat map is for displays, not linear light", "-o", "write .png");
     }
     CheckWritable(*options.output);

@@ -14,7 +14,6 @@
 #include "base/output_file.h"
 #include "base/parallel.h"
 #include "cli/console.h"
-#include "cli/output_path.h"
 #include "cli/progress.h"
 #include "cli/report_command.h"
 #include "cli/stats_output.h"
@@ -22,6 +21,7 @@
 #include "facet/version.h"
 #include "film/hash_film.h"
 #include "image/codec.h"
+#include "image/formats.h"
 #include "image/hash_image.h"
 #include "settings/provenance.h"
 
@@ -48,16 +48,16 @@ void PrintWarnings(const std::vector<std::string>& warnings, const RenderOptions
 // Settings that contradict the output's format; everything that needs no file.
 void Reconcile(RenderOptions& options) {
   RefuseContradictions(options.request);
-  const OutputFormat& format = FormatOf(options.output);
+  const ImageFormat& format = FormatToWrite(options.output);
   CheckWritable(options.output);
   if (options.stats_json && *options.stats_json != "-") CheckWritable(*options.stats_json);
   RenderRequest& request = options.request;
-  const std::string kind(format.extension);
-  if (request.type == ChannelType::U16 && !format.sixteen_bits) {
+  const std::string kind = ExtensionOf(options.output);
+  if (request.type == ChannelType::U16 && !format.Holds(ChannelType::U16)) {
     throw Error(ErrorCode::InvalidUsage, kind + " files do not hold 16-bit integers", "--bits 16",
                 "write .png or .tif, or .exr for linear light");
   }
-  if (format.linear) {
+  if (format.IsLinear()) {
     request.type = ChannelType::F32;
     std::vector<std::string> warnings;
     if (request.Given("tonemap") && request.display.tone_map != ToneMap::None) {
@@ -66,13 +66,14 @@ void Reconcile(RenderOptions& options) {
     if (request.Given("bits")) warnings.push_back("--bits: " + kind + " files hold floats");
     PrintWarnings(warnings, options);
   }
-  if (!format.alpha && request.settings.background != Background::Environment && !request.display.background_srgb) {
+  if (format.alpha == FileAlpha::None && request.settings.background != Background::Environment &&
+      !request.display.background_srgb) {
     if (request.Given("background")) {
       throw Error(ErrorCode::InvalidUsage, kind + " files have no transparency", "--background transparent",
                   "choose a colour, or write .png");
     }
     // Light adds to black, ink to white.
-    request.display.background_srgb = glm::vec3(format.linear ? 0.0f : 1.0f);
+    request.display.background_srgb = glm::vec3(format.IsLinear() ? 0.0f : 1.0f);
   }
 }
 
@@ -109,7 +110,7 @@ int BandRows(const RenderOptions& options) {
   const std::uint64_t limit = settings.memory_limit > 0 ? settings.memory_limit : DefaultMemoryLimit();
   const std::uint64_t row_bytes = std::uint64_t(settings.width) * sizeof(glm::vec4);
   const bool large = row_bytes * std::uint64_t(settings.height) > std::min(kLargestWhole, limit / 4);
-  const bool streamed = FormatOf(options.output).extension == ".png" && IsPlainFile(options.output);
+  const bool streamed = ExtensionOf(options.output) == ".png" && IsPlainFile(options.output);
   return large && streamed ? static_cast<int>(std::max<std::uint64_t>(std::min(kBand, limit / 8) / row_bytes, 1)) : 0;
 }
 
@@ -119,7 +120,7 @@ void CheckMemory(const RenderOptions& options) {
   const RenderSettings& settings = request.settings;
   const std::uint64_t pixels = std::uint64_t(settings.width) * std::uint64_t(settings.height);
   const std::string size = std::to_string(settings.width) + " x " + std::to_string(settings.height) + " pixels";
-  const std::string remedy = FormatOf(options.output).extension == ".png"
+  const std::string remedy = ExtensionOf(options.output) == ".png"
                                  ? "make the picture smaller, or write it to a plain file, which is done piece by piece"
                                  : "make the picture smaller, or write it as .png, which is done piece by piece";
   MemoryBudget budget(settings.memory_limit);

@@ -9,7 +9,6 @@
 #include "gltf/recognize.h"
 #include "gltf/uri.h"
 #include "image/codec.h"
-#include "image/probe.h"
 
 namespace facet::gltf {
 namespace {

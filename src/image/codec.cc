@@ -10,48 +10,39 @@
 #include "base/input_file.h"
 #include "base/pages.h"
 #include "facet/error.h"
-#include "image/exr_text.h"
-#include "image/format.h"
-#include "image/jpeg.h"
+#include "image/file_start.h"
+#include "image/formats.h"
 #include "image/limits.h"
 #include "image/oiio_loader.h"
-#include "image/png.h"
-#include "image/probe.h"
-#include "image/radiance.h"
-#include "image/webp.h"
 
 namespace facet {
 namespace {
 
 constexpr int kPieceRows = 64;  // a piece stays in the processor's cache until the receiver has it
 
-using DecodeRowsOf = void (*)(std::span<const std::byte>, const std::string&, int, const PieceReceiver&);
-
-// Before a decoder sees the file.
-void CheckHeader(std::span<const std::byte> bytes, const std::string& name) {
+// The format of a file that may be decoded, before a decoder sees it. Throws as DecodeImage.
+const ImageFormat& FormatToDecode(std::span<const std::byte> bytes, const std::string& name, ImageFormats formats) {
   const std::optional<ImageHeader> header = ProbeImage(bytes);
   if (header && header->width > 0 && header->height > 0) {
     CheckImageSize(std::uint64_t(header->width), std::uint64_t(header->height), name);
   }
-}
-
-// Of the formats that are decoded row by row; null for others.
-DecodeRowsOf RowDecoderOf(std::span<const std::byte> bytes) {
-  return LooksLikePng(bytes) ? DecodePng : LooksLikeJpeg(bytes) ? DecodeJpeg : nullptr;
-}
-
-Image DecodeWhole(std::span<const std::byte> bytes, const std::string& name, ImageFormats formats) {
-  if (LooksLikeWebP(bytes)) return DecodeWebP(bytes, name);
   const ImageFormat* const format = FormatOf(bytes, name);
-  if (formats == ImageFormats::Gltf) {
-    throw Error(ErrorCode::InvalidInput,
-                format != nullptr ? "a " + std::string(format->name) + " image, which glTF does not allow"
-                                  : std::string("no image: its format is not known"),
-                name, "convert it to PNG or JPEG");
-  }
-  if (LooksLikeRadiance(bytes)) return DecodeRadiance(bytes, name);
-  if (format == nullptr) throw Error(ErrorCode::InvalidInput, "no image: its format is not known", name);
-  return DecodeWithOiio(bytes, format->extension, name);
+  const bool gltf = formats == ImageFormats::Gltf;
+  if (format != nullptr && (format->in_gltf || !gltf)) return *format;
+  throw Error(ErrorCode::InvalidInput,
+              format != nullptr ? "a " + std::string(format->name) + " image, which glTF does not allow"
+                                : std::string("no image: its format is not known"),
+              name, gltf ? "convert it to PNG or JPEG" : "");
+}
+
+Image DecodeByModule(const ImageFormat& format, std::span<const std::byte> bytes, const std::string& name,
+                     bool as_stored = false) {
+  if (format.check != nullptr) format.check(bytes, name);
+  return DecodeWithOiio(bytes, format.extensions[0].substr(1), name, as_stored);
+}
+
+Image DecodeWhole(const ImageFormat& format, std::span<const std::byte> bytes, const std::string& name) {
+  return format.decode != nullptr ? format.decode(bytes, name) : DecodeByModule(format, bytes, name);
 }
 
 }  // namespace
@@ -91,13 +82,22 @@ std::vector<std::byte> AllocatePixels(std::size_t count, const std::string& name
   return pixels;
 }
 
+std::optional<ImageHeader> ProbeImage(std::span<const std::byte> bytes) {
+  const ImageFormat* const format = FormatOf(bytes);
+  if (format == nullptr || format->probe == nullptr) return std::nullopt;
+  ImageHeader header;
+  header.format = format->name;
+  header.bytes = bytes.size();
+  format->probe(FileStart(bytes), header);
+  return header;
+}
+
 Image DecodeImage(std::span<const std::byte> bytes, const std::string& name, ImageFormats formats) {
-  CheckHeader(bytes, name);
-  const DecodeRowsOf decode = RowDecoderOf(bytes);
-  if (decode == nullptr) return DecodeWhole(bytes, name, formats);
+  const ImageFormat& format = FormatToDecode(bytes, name, formats);
+  if (format.decode_rows == nullptr) return DecodeWhole(format, bytes, name);
   Image image;
   MemoryLease lease;
-  decode(bytes, name, kPieceRows, [&](Image& rows, int height) {
+  format.decode_rows(bytes, name, kPieceRows, [&](Image& rows, int height) {
     if (rows.height == height) {
       image = std::move(rows);
       return;
@@ -118,20 +118,22 @@ Image DecodeImage(std::span<const std::byte> bytes, const std::string& name, Ima
 
 void DecodeImageRows(std::span<const std::byte> bytes, const std::string& name, const RowReceiver& receive,
                      ImageFormats formats) {
-  CheckHeader(bytes, name);
-  if (const DecodeRowsOf decode = RowDecoderOf(bytes)) return decode(bytes, name, kPieceRows, receive);
-  const Image whole = DecodeWhole(bytes, name, formats);
+  const ImageFormat& format = FormatToDecode(bytes, name, formats);
+  if (format.decode_rows != nullptr) return format.decode_rows(bytes, name, kPieceRows, receive);
+  const Image whole = DecodeWhole(format, bytes, name);
   const MemoryLease lease(whole.bytes.size(), 1, "decoded images", name);
   receive(whole, whole.height);
 }
 
 Image DecodeStored(std::span<const std::byte> bytes, const std::string& name) {
-  return LooksLikeExr(bytes) ? DecodeWithOiio(bytes, "exr", name, /*as_stored=*/true) : DecodeImage(bytes, name);
+  const ImageFormat* const format = FormatOf(bytes);
+  const bool associated = format != nullptr && format->alpha == FileAlpha::Associated;
+  return associated ? DecodeByModule(*format, bytes, name, /*as_stored=*/true) : DecodeImage(bytes, name);
 }
 
 std::map<std::string, std::string> ReadImageText(std::span<const std::byte> bytes, const std::string& name) {
-  if (LooksLikePng(bytes)) return ReadPngText(bytes, name);
-  if (LooksLikeExr(bytes)) return ReadExrText(bytes, name);
+  const ImageFormat* const format = FormatOf(bytes);
+  if (format != nullptr && format->read_text != nullptr) return format->read_text(bytes, name);
   throw Error(ErrorCode::InvalidInput, "is neither PNG nor EXR", name);
 }
 

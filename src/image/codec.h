@@ -1,5 +1,6 @@
-// Images as files: decoding from memory, encoding to memory. PNG, JPEG, WebP and Radiance HDR are read here; every
-// other format goes through the OpenImageIO module (see oiio_loader.h), which is opened when the first such file comes.
+// Images as files: decoding from memory, encoding to memory. What formats there are stands in formats.cc; those without
+// a codec of facet's own go through the OpenImageIO module (see oiio_loader.h), which is opened when the first such
+// file comes.
 #pragma once
 
 #include <array>
@@ -8,6 +9,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -24,6 +26,11 @@ inline constexpr std::size_t kMaxImagePixels = std::size_t(1) << 28;
 // What may be decoded. Gltf: what glTF 2.0 and its extensions allow, PNG, JPEG and WebP; nothing else reaches
 // OpenImageIO from a file that anybody may have made.
 enum class ImageFormats : std::uint8_t { Any, Gltf };
+
+// The header of a file of which `bytes` are all, or the start: what is not among them is 0, and `ImageHeader::bytes` is
+// the size of `bytes`. Nothing is decoded and no checksum is verified; sizes beyond int are 0. nullopt: a format whose
+// header facet does not read, or none. Takes time linear in the size of `bytes`, and throws nothing.
+std::optional<ImageHeader> ProbeImage(std::span<const std::byte> bytes);
 
 // Decodes a whole file of any format that facet or OpenImageIO reads; the format is told by content, never by name.
 // Channels and depth are the file's (a palette becomes RGB or RGBA, grey of 1, 2 and 4 bits becomes 8, PNG of 16 bits
@@ -73,7 +80,7 @@ class PngStream {
   std::uint32_t checksum_ = 1;  // Adler-32 of the rows so far
 };
 
-// WriteImage of facet/film.h with a text that is made of the image as it stands in the file (see StoredForm). PNG and
+// WriteImage of facet/image.h with a text that is made of the image as it stands in the file (see StoredForm). PNG and
 // EXR hold it; other formats have no use for it and do not make it.
 using TextMaker = std::function<ImageText(const Image& stored)>;
 void WriteImageWithText(const std::filesystem::path& path, const Image& image, const TextMaker& make_text);

@@ -7,16 +7,19 @@
 #include <vector>
 
 #include "facet/image.h"
+#include "image/file_start.h"
 #include "image/limits.h"
 
 namespace facet {
 
-bool LooksLikeJpeg(std::span<const std::byte> bytes);
+// See ImageFormat::probe.
+void ProbeJpeg(const FileStart& file, ImageHeader& header);
 
 // See DecodeImage; gives pieces of `piece_rows` rows, the last maybe fewer. Baseline and progressive; grey, YCbCr, RGB,
 // CMYK and YCCK. The accurate integer DCT and the smooth ("fancy") chroma upsampling are fixed: both give the same bits
 // with and without SIMD. A missing end marker is Image::damage where no coefficient is missing.
-void DecodeJpeg(std::span<const std::byte> bytes, const std::string& name, int piece_rows, const PieceReceiver& receive);
+void DecodeJpeg(std::span<const std::byte> bytes, const std::string& name, int piece_rows,
+                const PieceReceiver& receive);
 
 // Baseline, quality 95, chroma at half the resolution. `image`: U8, grey or RGB.
 // Throws Error: InvalidUsage for more than 65500 pixels a side, OutOfMemory.

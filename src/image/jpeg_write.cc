@@ -1,37 +1,15 @@
-// Writing JPEG. libjpeg's own handler of errors ends the process and its own target, a stdio file, ends in that handler
-// when the disk is full: both are replaced.
+// Writing JPEG.
 #include <algorithm>
-#include <csetjmp>
-#include <cstddef>
-#include <cstdio>
 #include <cstdlib>
 #include <memory>
 #include <string>
 
-// jpeglib.h needs size_t and FILE to be known.
-#include <jpeglib.h>
-
-#include <jerror.h>
-
 #include "facet/error.h"
 #include "image/jpeg.h"
+#include "image/jpeg_errors.h"
 
 namespace facet {
 namespace {
-
-struct ErrorState {
-  jpeg_error_mgr manager;  // first: libjpeg hands back a pointer to it
-  std::jmp_buf jump;
-  char text[JMSG_LENGTH_MAX];
-};
-
-[[noreturn]] void OnError(j_common_ptr codec) {
-  auto* state = reinterpret_cast<ErrorState*>(codec->err);
-  codec->err->format_message(codec, state->text);
-  std::longjmp(state->jump, 1);
-}
-
-void OnOutput(j_common_ptr) {}
 
 // Where the file goes. libjpeg's own target in memory loses hold of its memory where there is too little.
 struct Target {
@@ -47,11 +25,7 @@ boolean MakeRoom(j_compress_ptr encoder) {
   constexpr std::size_t kFirst = std::size_t{1} << 16;
   const std::size_t used = target->room, room = std::max(kFirst, 2 * used);
   void* const bytes = std::realloc(target->bytes, room);
-  if (bytes == nullptr) {
-    encoder->err->msg_code = JERR_OUT_OF_MEMORY;
-    encoder->err->msg_parm.i[0] = 0;
-    OnError(reinterpret_cast<j_common_ptr>(encoder));
-  }
+  if (bytes == nullptr) ERREXIT1(encoder, JERR_OUT_OF_MEMORY, 0);
   target->bytes = static_cast<JOCTET*>(bytes);
   target->room = room;
   target->manager.next_output_byte = target->bytes + used;
@@ -61,8 +35,8 @@ boolean MakeRoom(j_compress_ptr encoder) {
 
 void End(j_compress_ptr) {}
 
-// Holds plain data only: an error leaves it by longjmp.
-bool Encode(jpeg_compress_struct* encoder, ErrorState* errors, const Image* image, Target* target) {
+// See jpeg_errors.h.
+bool Encode(jpeg_compress_struct* encoder, JpegErrors* errors, const Image* image, Target* target) {
   if (setjmp(errors->jump) != 0) return false;
   jpeg_create_compress(encoder);
   target->manager.init_destination = Begin;
@@ -94,11 +68,9 @@ std::vector<std::byte> EncodeJpeg(const Image& image) {
   if (image.width > JPEG_MAX_DIMENSION || image.height > JPEG_MAX_DIMENSION) {
     throw Error(ErrorCode::InvalidUsage, "a JPEG file has at most 65500 pixels a side");
   }
-  ErrorState errors{};
+  JpegErrors errors{};
   jpeg_compress_struct encoder{};
-  encoder.err = jpeg_std_error(&errors.manager);
-  errors.manager.error_exit = OnError;
-  errors.manager.output_message = OnOutput;
+  encoder.err = BeginJpegErrors(errors);
   Target target{};
   const bool done = Encode(&encoder, &errors, &image, &target);
   jpeg_destroy_compress(&encoder);

@@ -10,7 +10,6 @@
 
 #include "facet/error.h"
 #include "image/codec.h"
-#include "image/exr_text.h"
 #include "image/limits.h"
 #include "image/oiio_abi.h"
 
@@ -32,42 +31,15 @@ std::mutex mutex;
 std::optional<Module> opened;                            // guarded by mutex; never closed
 const std::vector<fs::path>* search_override = nullptr;  // guarded by mutex
 
-std::vector<fs::path> Candidates() {
-  std::vector<fs::path> out;
-  if (search_override) {
-    for (const fs::path& folder : *search_override) out.push_back(folder / kFileName);
-    return out;
-  }
-  if (const char* variable = std::getenv("FACET_MODULE_PATH")) {
-    const std::string folders = variable;
-    for (std::size_t at = 0; at <= folders.size();) {
-      const std::size_t end = std::min(folders.find(':', at), folders.size());
-      if (end > at) out.push_back(fs::path(folders.substr(at, end - at)) / kFileName);
-      at = end + 1;
-    }
-  }
-  std::error_code ignored;
-  const fs::path program = fs::read_symlink("/proc/self/exe", ignored).parent_path();
-  if (!program.empty()) out.push_back(program / kFileName);
-  out.push_back(fs::path(FACET_MODULE_BUILD_DIR) / kFileName);
-  if (!program.empty()) {
-    for (const char* lib : {FACET_MODULE_INSTALL_DIR, "lib/" FACET_MODULE_ARCHITECTURE "/facet", "lib/facet"}) {
-      out.push_back((program.parent_path() / lib / kFileName).lexically_normal());
-    }
-  }
-  out.emplace_back(kFileName);
-  return out;
-}
-
 template <class Function>
 bool Find(void* library, const char* name, Function* function) {
   *function = reinterpret_cast<Function>(dlsym(library, name));
   return *function != nullptr;
 }
 
-Module Open() {
+Module Open(const std::vector<fs::path>& candidates) {
   std::string trouble;  // of a module that is there but does not open: more telling than that others are not there
-  for (const fs::path& path : Candidates()) {
+  for (const fs::path& path : candidates) {
     std::error_code ignored;
     if (path.has_parent_path() && !fs::exists(path, ignored)) continue;
     void* library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
@@ -96,8 +68,12 @@ Module Open() {
 
 Module Get() {
   const std::lock_guard lock(mutex);
-  if (search_override) return Open();
-  if (!opened) opened = Open();
+  if (search_override) {
+    std::vector<fs::path> candidates;
+    for (const fs::path& folder : *search_override) candidates.push_back(folder / kFileName);
+    return Open(candidates);
+  }
+  if (!opened) opened = Open(OiioModuleCandidates());
   return *opened;
 }
 
@@ -122,9 +98,31 @@ ErrorCode CodeOf(int result) {
 
 }  // namespace
 
+std::vector<fs::path> OiioModuleCandidates() {
+  std::vector<fs::path> out;
+  if (const char* variable = std::getenv("FACET_MODULE_PATH")) {
+    const std::string folders = variable;
+    for (std::size_t at = 0; at <= folders.size();) {
+      const std::size_t end = std::min(folders.find(':', at), folders.size());
+      if (end > at) out.push_back(fs::path(folders.substr(at, end - at)) / kFileName);
+      at = end + 1;
+    }
+  }
+  std::error_code ignored;
+  const fs::path program = fs::read_symlink("/proc/self/exe", ignored).parent_path();
+  if (!program.empty()) out.push_back(program / kFileName);
+  out.push_back(fs::path(FACET_MODULE_BUILD_DIR) / kFileName);
+  if (!program.empty()) {
+    for (const char* lib : {FACET_MODULE_INSTALL_DIR, "lib/" FACET_MODULE_ARCHITECTURE "/facet", "lib/facet"}) {
+      out.push_back((program.parent_path() / lib / kFileName).lexically_normal());
+    }
+  }
+  out.emplace_back(kFileName);
+  return out;
+}
+
 Image DecodeWithOiio(std::span<const std::byte> bytes, std::string_view extension, const std::string& name,
                      bool as_stored) {
-  if (LooksLikeExr(bytes)) CheckExrHeader(bytes, name);
   const Module module = GetFor(name, "not PNG, JPEG, WebP or Radiance, and ");
   FacetOiioPicture picture{};
   char message[kMessageSize] = {};
@@ -168,13 +166,6 @@ std::vector<std::byte> EncodeWithOiio(const std::string& extension, const Image&
   if (result != FACET_OIIO_OK) throw Error(CodeOf(result), message);
   const auto* const begin = static_cast<const std::byte*>(bytes);
   return {begin, begin + size};
-}
-
-void RequireOiio() { Get(); }
-
-std::vector<std::filesystem::path> OiioModuleCandidates() {
-  const std::lock_guard lock(mutex);
-  return Candidates();
 }
 
 void OverrideOiioSearch(const std::vector<std::filesystem::path>* folders) {

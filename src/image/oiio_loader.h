@@ -23,9 +23,6 @@ Image DecodeWithOiio(std::span<const std::byte> bytes, std::string_view extensio
 std::vector<std::byte> EncodeWithOiio(const std::string& extension, const Image& image, bool premultiplied,
                                       const std::vector<std::array<std::string, 2>>& text = {});
 
-// Opens the module now. Throws Error(MissingModule).
-void RequireOiio();
-
 // Where the module is looked for, in order: the folders of the environment variable FACET_MODULE_PATH, that of the
 // program, the build tree, and the installed ones beside the program. The last entry has no folder: the system's
 // search path.

@@ -7,11 +7,13 @@
 #include <string>
 
 #include "facet/image.h"
+#include "image/file_start.h"
 #include "image/limits.h"
 
 namespace facet {
 
-bool LooksLikePng(std::span<const std::byte> bytes);
+// See ImageFormat::probe.
+void ProbePng(const FileStart& file, ImageHeader& header);
 
 // See DecodeImage; gives pieces of `piece_rows` rows, the last maybe fewer. Every pixel must be there and the checksums
 // of all that makes them be right; what is broken elsewhere is Image::damage of the last piece.

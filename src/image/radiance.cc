@@ -70,27 +70,37 @@ struct Resolution {
   bool bottom_up = false, right_to_left = false;
 };
 
+struct Axis {
+  char sign = 0, letter = 0;
+  std::uint64_t length = 0;
+};
+
+// "-Y 512", or the like, from the front of `line`. False: it cannot be read; without a letter, not even its name.
+bool TakeAxis(std::string_view& line, Axis& axis) {
+  while (line.starts_with(' ')) line.remove_prefix(1);
+  if (line.size() < 4 || (line[0] != '+' && line[0] != '-') || (line[1] != 'X' && line[1] != 'Y') || line[2] != ' ') {
+    return false;
+  }
+  axis.sign = line[0];
+  axis.letter = line[1];
+  const char* const end = line.data() + line.size();
+  const auto [after, bad] = std::from_chars(line.data() + 3, end, axis.length);
+  line = std::string_view(after, static_cast<std::size_t>(end - after));
+  return bad == std::errc();
+}
+
 // "-Y 512 +X 1024": rows from the top (-Y), pixels from the left (+X).
 Resolution ParseResolution(std::string_view line, const Reader& reader, const std::string& name) {
   Resolution out;
-  const char* at = line.data();
-  const char* const end = at + line.size();
-  for (int axis = 0; axis < 2; ++axis) {
-    while (at < end && *at == ' ') ++at;
-    if (end - at < 4 || (*at != '+' && *at != '-') || (at[1] != 'X' && at[1] != 'Y') || at[2] != ' ') {
-      reader.Fail("its size cannot be read");
-    }
-    const bool plus = *at == '+', is_x = at[1] == 'X';
-    if (is_x != (axis == 1)) {
+  for (const char expected : {'Y', 'X'}) {
+    Axis axis;
+    const bool good = TakeAxis(line, axis);
+    if (axis.letter != 0 && axis.letter != expected) {
       throw Error(ErrorCode::Unsupported, "a Radiance picture stored by columns", name, "convert it to rows");
     }
-    at += 3;
-    std::uint64_t number = 0;
-    const auto [after, bad] = std::from_chars(at, end, number);
-    if (bad != std::errc()) reader.Fail("its size cannot be read");
-    at = after;
-    (is_x ? out.width : out.height) = number;
-    (is_x ? out.right_to_left : out.bottom_up) = is_x ? !plus : plus;
+    if (!good) reader.Fail("its size cannot be read");
+    (expected == 'X' ? out.width : out.height) = axis.length;
+    (expected == 'X' ? out.right_to_left : out.bottom_up) = axis.sign == (expected == 'X' ? '-' : '+');
   }
   return out;
 }
@@ -146,9 +156,17 @@ void ReadRow(Reader& reader, std::vector<Rgbe>& row, std::vector<std::uint8_t>& 
 
 }  // namespace
 
-bool LooksLikeRadiance(std::span<const std::byte> bytes) {
-  const std::string_view start(reinterpret_cast<const char*>(bytes.data()), std::min<std::size_t>(bytes.size(), 10));
-  return start.starts_with("#?RADIANCE") || start.starts_with("#?RGBE");
+void ProbeRadiance(const FileStart& file, ImageHeader& header) {
+  header.channels = 3;
+  header.bits = 32;
+  std::size_t at = 0;
+  std::string_view line;
+  do {
+    if (!file.Line(at, line)) return;
+  } while (!line.empty());
+  Axis first, second;
+  if (!file.Line(at, line) || !TakeAxis(line, first) || !TakeAxis(line, second)) return;
+  for (const Axis& axis : {first, second}) (axis.letter == 'X' ? header.width : header.height) = SideOf(axis.length);
 }
 
 Image DecodeRadiance(std::span<const std::byte> bytes, const std::string& name) {

@@ -6,10 +6,12 @@
 #include <string>
 
 #include "facet/image.h"
+#include "image/file_start.h"
 
 namespace facet {
 
-bool LooksLikeRadiance(std::span<const std::byte> bytes);
+// See ImageFormat::probe.
+void ProbeRadiance(const FileStart& file, ImageHeader& header);
 
 // See DecodeImage: F32, 3 channels, linear. RGBE in any of the three packings (flat, old and new run lengths), rows in
 // either direction; XYZE and pictures stored by columns are Unsupported. A number is mantissa * 2^(exponent - 136),

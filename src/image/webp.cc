@@ -34,9 +34,28 @@ void DecodeFirstFrame(std::span<const std::byte> bytes, Image& image, const std:
 
 }  // namespace
 
-bool LooksLikeWebP(std::span<const std::byte> bytes) {
-  return bytes.size() >= 12 && std::memcmp(bytes.data(), "RIFF", 4) == 0 &&
-         std::memcmp(bytes.data() + 8, "WEBP", 4) == 0;
+void ProbeWebP(const FileStart& file, ImageHeader& header) {
+  constexpr std::size_t kData = 20;  // of the first chunk
+  if (file.Is(12, "VP8 ") && file.Has(kData, 10)) {
+    const bool key_frame = (file.Byte(kData) & 1) == 0;
+    if (!key_frame || !file.Is(kData + 3, "\x9D\x01\x2A")) return;
+    header.width = static_cast<int>(file.Little16(kData + 6) & 0x3FFF);  // above: scaling, which nobody applies
+    header.height = static_cast<int>(file.Little16(kData + 8) & 0x3FFF);
+    header.channels = 3;
+  } else if (file.Is(12, "VP8L") && file.Has(kData, 5)) {
+    if (file.Byte(kData) != 0x2F) return;
+    const std::uint32_t packed = file.Little32(kData + 1);
+    header.width = static_cast<int>(packed & 0x3FFF) + 1;
+    header.height = static_cast<int>(packed >> 14 & 0x3FFF) + 1;
+    header.channels = (packed >> 28 & 1) != 0 ? 4 : 3;
+  } else if (file.Is(12, "VP8X") && file.Has(kData, 10)) {
+    header.width = static_cast<int>(file.Little24(kData + 4)) + 1;
+    header.height = static_cast<int>(file.Little24(kData + 7)) + 1;
+    header.channels = (file.Byte(kData) & 0x10) != 0 ? 4 : 3;
+  } else {
+    return;
+  }
+  header.bits = 8;
 }
 
 Image DecodeWebP(std::span<const std::byte> bytes, const std::string& name) {

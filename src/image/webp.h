@@ -7,10 +7,12 @@
 #include <vector>
 
 #include "facet/image.h"
+#include "image/file_start.h"
 
 namespace facet {
 
-bool LooksLikeWebP(std::span<const std::byte> bytes);
+// See ImageFormat::probe.
+void ProbeWebP(const FileStart& file, ImageHeader& header);
 
 // See DecodeImage: U8, RGB or RGBA with straight alpha, as it stands in the file. Of an animation, its first frame. All
 // of libwebp's arithmetic is in integers, and its vector code gives the bits of its plain code.

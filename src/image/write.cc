@@ -1,8 +1,6 @@
-// WriteImage of facet/film.h. PNG, JPEG and WebP are encoded here, all else by OpenImageIO. OpenEXR gets linear light
-// as floats with the colours multiplied by alpha, as that format wants them (8 and 16 bits are decoded first); Radiance
-// gets linear light; TIFF keeps the numbers, alpha straight; the others 8 bits. A format that gets no alpha takes
-// opaque pictures only.
-#include <algorithm>
+// WriteImage of facet/image.h. A format gets the picture in the form that its row of formats.cc says: one that holds
+// floats alone, linear light (8 and 16 bits are decoded first); one that holds bytes alone, 8 bits; the others the
+// numbers as they are. A format that gets no alpha takes opaque pictures only.
 #include <array>
 #include <string>
 #include <vector>
@@ -10,43 +8,11 @@
 #include "facet/error.h"
 #include "image/codec.h"
 #include "image/convert.h"
-#include "image/jpeg.h"
+#include "image/formats.h"
 #include "image/oiio_loader.h"
-#include "image/webp.h"
 
 namespace facet {
 namespace {
-
-// How a format holds numbers, and what becomes of alpha.
-enum class Holds { Png, LinearPremultiplied, LinearOpaque, Bytes, BytesOpaque, Anything };
-
-struct Format {
-  const char* extension;
-  Holds holds;
-};
-
-constexpr Format kFormats[] = {
-    {".png", Holds::Png},          {".exr", Holds::LinearPremultiplied},
-    {".hdr", Holds::LinearOpaque}, {".tif", Holds::Anything},
-    {".tiff", Holds::Anything},    {".jpg", Holds::BytesOpaque},
-    {".jpeg", Holds::BytesOpaque}, {".webp", Holds::Bytes},
-    {".bmp", Holds::BytesOpaque},  {".tga", Holds::Bytes},
-    {".ppm", Holds::BytesOpaque},
-};
-
-const Format& FormatByName(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  std::string known;
-  for (const Format& format : kFormats) {
-    if (extension == format.extension) return format;
-    known += (known.empty() ? "" : ", ") + std::string(format.extension);
-  }
-  throw Error(ErrorCode::InvalidUsage,
-              extension.empty() ? "a picture's name needs an extension" : "no picture is written as " + extension,
-              path.string(), "use one of " + known);
-}
 
 bool HasAlpha(const Image& image) { return image.channels == 2 || image.channels == 4; }
 
@@ -91,30 +57,24 @@ void Premultiply(Image& image, bool keep_glow) {
   }
 }
 
-// The image in the form that the format holds.
-Image FormFor(Holds holds, const Image& image, const std::filesystem::path& path) {
-  switch (holds) {
-    case Holds::LinearPremultiplied: {
-      Image form = ToLinear32F(image);
-      Premultiply(form, image.type == ChannelType::F32);
-      return form;
-    }
-    case Holds::LinearOpaque: return WithChannels(ToLinear32F(Opaque(image, path)), 3);
-    case Holds::Bytes: return Bytes(image, path);
-    case Holds::BytesOpaque: return Bytes(Opaque(image, path), path);
-    default: return image;
-  }
+// The image in the form that the format holds: itself, or `converted`.
+const Image& FormFor(const ImageFormat& format, const Image& image, const std::filesystem::path& path,
+                     Image& converted) {
+  if (format.Holds(ChannelType::U16)) return image;
+  const bool drops_alpha = format.alpha == FileAlpha::None;
+  const Image opaque = drops_alpha ? Opaque(image, path) : Image();
+  const Image& source = drops_alpha ? opaque : image;
+  converted = format.IsLinear() ? ToLinear32F(source) : Bytes(source, path);
+  if (format.alpha == FileAlpha::Associated) Premultiply(converted, image.type == ChannelType::F32);
+  if (!format.has_grey && converted.channels < 3) converted = WithChannels(converted, converted.channels + 2);
+  return converted;
 }
 
-std::vector<std::byte> Encode(const Format& format, const Image& image, const std::filesystem::path& path,
-                              const TextMaker& make_text) {
-  if (format.holds == Holds::Png) return EncodePng(image, [&] { return make_text(image); });
-  const Image form = FormFor(format.holds, image, path);
-  const std::string extension = std::string(format.extension).substr(1);
-  if (extension == "jpg" || extension == "jpeg") return EncodeJpeg(form.channels == 2 ? WithChannels(form, 1) : form);
-  if (extension == "webp") return EncodeWebP(form.channels < 3 ? WithChannels(form, form.channels + 2) : form);
-  const bool is_exr = format.holds == Holds::LinearPremultiplied;
-  return EncodeWithOiio(extension, form, is_exr, is_exr ? make_text(form) : ImageText());
+std::vector<std::byte> Encode(const ImageFormat& format, const Image& form, const TextMaker& make_text) {
+  const MakeText make = [&] { return format.read_text != nullptr ? make_text(form) : ImageText(); };
+  if (format.encode != nullptr) return format.encode(form, make);
+  const std::string extension(format.extensions[0].substr(1));
+  return EncodeWithOiio(extension, form, format.alpha == FileAlpha::Associated, make());
 }
 
 }  // namespace
@@ -125,15 +85,17 @@ void WriteImage(const std::filesystem::path& path, const Image& image,
 }
 
 Image StoredForm(const std::filesystem::path& path, const Image& image) {
-  return FormFor(FormatByName(path).holds, image, path);
+  Image converted;
+  return FormFor(FormatToWrite(path), image, path, converted);
 }
 
 void WriteImageWithText(const std::filesystem::path& path, const Image& image, const TextMaker& make_text) {
-  const Format& format = FormatByName(path);
+  const ImageFormat& format = FormatToWrite(path);
   CheckImage(image, path.c_str());
   OutputFile file(path);  // before the work: it may not be writable
   try {
-    file.Write(Encode(format, image, path, make_text));
+    Image converted;
+    file.Write(Encode(format, FormFor(format, image, path, converted), make_text));
   } catch (const Error& error) {
     if (!error.where().empty()) throw;
     throw Error(error.code(), error.message(), path.string(), error.hint());

@@ -9,7 +9,6 @@
 #include "facet/image.h"
 #include "fuzz/fuzz.h"
 #include "image/codec.h"
-#include "image/probe.h"
 
 namespace facet::fuzz {
 namespace {

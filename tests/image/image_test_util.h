@@ -2,6 +2,7 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -10,6 +11,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -51,6 +53,20 @@ ErrorCode CodeOf(Body&& body, std::string* what = nullptr) {
   return ErrorCode::Internal;
 }
 
+// Calls `body`, which gets no more than `bytes` from the system. (The sanitizers have taken theirs already.)
+template <class Body>
+void WithLittleMemory(std::size_t bytes, const Body& body) {
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_AS, &before), 0);
+  std::size_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  rlimit little = before;
+  little.rlim_cur = pages * static_cast<std::size_t>(getpagesize()) + bytes;
+  ASSERT_EQ(setrlimit(RLIMIT_AS, &little), 0);
+  body();
+  EXPECT_EQ(setrlimit(RLIMIT_AS, &before), 0);
+}
+
 // Every byte differs from its neighbours, and every value occurs.
 inline Image MakePattern(int width, int height, int channels, ChannelType type, Encoding encoding = Encoding::Srgb) {
   Image image;
@@ -80,7 +96,6 @@ inline void ExpectSame(const Image& a, const Image& b) {
   EXPECT_TRUE(a.bytes == b.bytes) << "the pixels differ";
 }
 
-// FNV-1a.
 // The picture that DecodeImageRows gives in pieces.
 inline Image Joined(const std::vector<std::byte>& file, int* pieces = nullptr) {
   Image whole;
@@ -100,6 +115,7 @@ inline Image Joined(const std::vector<std::byte>& file, int* pieces = nullptr) {
   return whole;
 }
 
+// FNV-1a.
 inline std::uint64_t HashOf(const std::vector<std::byte>& bytes) {
   std::uint64_t hash = 14695981039346656037ull;
   for (const std::byte b : bytes) hash = (hash ^ static_cast<std::uint64_t>(b)) * 1099511628211ull;

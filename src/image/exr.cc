@@ -1,4 +1,4 @@
-#include "image/exr_text.h"
+#include "image/exr.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -9,10 +9,6 @@
 #include "image/limits.h"
 
 namespace facet {
-
-bool LooksLikeExr(std::span<const std::byte> bytes) {
-  return bytes.size() >= 8 && std::memcmp(bytes.data(), "\x76\x2F\x31\x01", 4) == 0;
-}
 
 namespace {
 

@@ -8,8 +8,6 @@
 
 namespace facet {
 
-bool LooksLikeExr(std::span<const std::byte> bytes);
-
 // Its attributes of type string, by name; see ReadImageText. Of a file with several parts, those of the first.
 // Source: OpenEXR, "The OpenEXR File Layout", section "Header". Throws Error(InvalidInput) where it is cut off.
 std::map<std::string, std::string> ReadExrText(std::span<const std::byte> bytes, const std::string& name);

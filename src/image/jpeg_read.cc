@@ -1,24 +1,14 @@
-// libjpeg reports errors by longjmp, which must not skip destructors: every function here that calls setjmp holds
-// plain data only, and whoever owns memory calls those functions.
+// Reading JPEG.
 #include "image/jpeg.h"
 
 #include <algorithm>
-#include <csetjmp>
 #include <cstdint>
-#include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <vector>
-
-// jpeglib.h needs size_t and FILE to be known.
-#include <jpeglib.h>
-
-#include <jerror.h>
 
 #include "base/pages.h"
 #include "facet/error.h"
-#include "image/codec.h"
-#include "image/limits.h"
+#include "image/jpeg_errors.h"
 
 namespace facet {
 namespace {
@@ -28,37 +18,20 @@ namespace {
 constexpr std::uint64_t kMaxBlocks = std::uint64_t{1} << 28;
 constexpr std::uint64_t kFewScans = 32, kMaxScans = 500;
 
-struct ErrorState {
-  jpeg_error_mgr manager;  // first: libjpeg hands back a pointer to it
-  std::jmp_buf jump;
-  char text[JMSG_LENGTH_MAX];
-  bool ended_early;  // the end marker is missing
-};
-
-[[noreturn]] void OnError(j_common_ptr codec) {
-  auto* state = reinterpret_cast<ErrorState*>(codec->err);
-  codec->err->format_message(codec, state->text);
-  std::longjmp(state->jump, 1);
-}
-
 // Warnings (level -1) that mean lost picture data are errors here; libjpeg would fill the hole with grey.
 void OnMessage(j_common_ptr codec, int level) {
   if (level >= 0) return;
   switch (codec->err->msg_code) {
     case JWRN_JPEG_EOF:  // where a scan still wants bits, JWRN_HIT_MARKER follows
-      reinterpret_cast<ErrorState*>(codec->err)->ended_early = true;
+      reinterpret_cast<JpegErrors*>(codec->err)->ended_early = true;
       break;
     case JWRN_HIT_MARKER:
     case JWRN_HUFF_BAD_CODE:
     case JWRN_MUST_RESYNC:
-    case JWRN_NOT_SEQUENTIAL:
-      OnError(codec);
-    default:
-      break;
+    case JWRN_NOT_SEQUENTIAL: OnJpegError(codec);
+    default: break;
   }
 }
-
-void OnOutput(j_common_ptr) {}
 
 struct ScanGuard {
   jpeg_progress_mgr manager;  // first, as above
@@ -69,7 +42,7 @@ void OnProgress(j_common_ptr codec) {
   const auto* decoder = reinterpret_cast<j_decompress_ptr>(codec);
   const int most = reinterpret_cast<const ScanGuard*>(codec->progress)->most;
   if (decoder->input_scan_number <= most) return;
-  auto* state = reinterpret_cast<ErrorState*>(codec->err);
+  auto* state = reinterpret_cast<JpegErrors*>(codec->err);
   std::snprintf(state->text, sizeof state->text, "more than %d scans", most);
   std::longjmp(state->jump, 1);
 }
@@ -127,7 +100,7 @@ JBLOCKARRAY AccessCoefficients(j_common_ptr, jvirt_barray_ptr array, JDIMENSION 
   return reinterpret_cast<JBLOCKARRAY>(array) + first_row;
 }
 
-bool Create(jpeg_decompress_struct* decoder, ErrorState* errors) {
+bool Create(jpeg_decompress_struct* decoder, JpegErrors* errors) {
   if (setjmp(errors->jump) != 0) return false;
   jpeg_create_decompress(decoder);
   decoder->mem->request_virt_barray = RequestCoefficients;
@@ -135,24 +108,17 @@ bool Create(jpeg_decompress_struct* decoder, ErrorState* errors) {
   return true;
 }
 
-bool Start(jpeg_decompress_struct* decoder, ErrorState* errors, const unsigned char* data, std::size_t size) {
+bool Start(jpeg_decompress_struct* decoder, JpegErrors* errors, const unsigned char* data, std::size_t size) {
   if (setjmp(errors->jump) != 0) return false;
   jpeg_mem_src(decoder, data, size);
   jpeg_read_header(decoder, TRUE);
   switch (decoder->jpeg_color_space) {
-    case JCS_GRAYSCALE:
-      decoder->out_color_space = JCS_GRAYSCALE;
-      break;
+    case JCS_GRAYSCALE: decoder->out_color_space = JCS_GRAYSCALE; break;
     case JCS_RGB:
-    case JCS_YCbCr:
-      decoder->out_color_space = JCS_RGB;
-      break;
+    case JCS_YCbCr: decoder->out_color_space = JCS_RGB; break;
     case JCS_CMYK:
-    case JCS_YCCK:
-      decoder->out_color_space = JCS_CMYK;
-      break;
-    default:
-      ERREXIT(decoder, JERR_CONVERSION_NOTIMPL);
+    case JCS_YCCK: decoder->out_color_space = JCS_CMYK; break;
+    default: ERREXIT(decoder, JERR_CONVERSION_NOTIMPL);
   }
   decoder->dct_method = JDCT_ISLOW;
   decoder->do_fancy_upsampling = TRUE;
@@ -161,7 +127,7 @@ bool Start(jpeg_decompress_struct* decoder, ErrorState* errors, const unsigned c
 }
 
 // The next `count` rows, the first of which is row `first` of the picture.
-bool ReadRows(jpeg_decompress_struct* decoder, ErrorState* errors, JSAMPROW* rows, JDIMENSION first, JDIMENSION count) {
+bool ReadRows(jpeg_decompress_struct* decoder, JpegErrors* errors, JSAMPROW* rows, JDIMENSION first, JDIMENSION count) {
   if (setjmp(errors->jump) != 0) return false;
   if (first == 0) {
     jpeg_start_decompress(decoder);  // of several scans, reads all
@@ -179,15 +145,13 @@ bool ReadRows(jpeg_decompress_struct* decoder, ErrorState* errors, JSAMPROW* row
 }
 
 struct Decoder {
-  ErrorState errors{};
+  JpegErrors errors{};
   jpeg_decompress_struct decoder{};
   ScanGuard guard{};
   Coefficients coefficients{};
   Decoder() {
-    decoder.err = jpeg_std_error(&errors.manager);
-    errors.manager.error_exit = OnError;
+    decoder.err = BeginJpegErrors(errors);
     errors.manager.emit_message = OnMessage;
-    errors.manager.output_message = OnOutput;
     if (!Create(&decoder, &errors)) throw Error(ErrorCode::OutOfMemory, std::string("libjpeg: ") + errors.text);
     guard.manager.progress_monitor = OnProgress;
     decoder.client_data = &coefficients;
@@ -215,8 +179,32 @@ void CmykToRgb(const std::vector<std::byte>& cmyk, bool inverted, Image& image) 
 
 }  // namespace
 
-bool LooksLikeJpeg(std::span<const std::byte> bytes) {
-  return bytes.size() >= 3 && bytes[0] == std::byte{0xFF} && bytes[1] == std::byte{0xD8} && bytes[2] == std::byte{0xFF};
+// From segment to segment up to the frame header (SOF).
+void ProbeJpeg(const FileStart& file, ImageHeader& header) {
+  for (std::size_t at = 2; at < file.Size();) {
+    // As libjpeg does: bytes that belong to nothing are passed over, and 0xFF may be repeated.
+    while (at < file.Size() && file.Byte(at) != 0xFF) ++at;
+    while (at < file.Size() && file.Byte(at) == 0xFF) ++at;
+    const std::uint32_t marker = file.Byte(at++);
+    const bool alone = marker == 0x00 || marker == 0x01 || (marker >= 0xD0 && marker <= 0xD8);
+    if (alone) continue;
+    constexpr std::uint32_t kHuffmanTables = 0xC4, kReserved = 0xC8, kArithmetic = 0xCC, kEnd = 0xD9, kScan = 0xDA;
+    if (marker == kEnd || marker == kScan) return;
+    const std::uint32_t length = file.Big16(at);
+    const bool frame =
+        marker >= 0xC0 && marker <= 0xCF && marker != kHuffmanTables && marker != kReserved && marker != kArithmetic;
+    if (frame) {
+      if (length < 8 || !file.Has(at, 8)) return;
+      header.bits = static_cast<int>(file.Byte(at + 2));
+      header.height = static_cast<int>(file.Big16(at + 3));
+      header.width = static_cast<int>(file.Big16(at + 5));
+      const std::uint32_t components = file.Byte(at + 7);
+      header.channels = components == 1 ? 1 : components == 3 || components == 4 ? 3 : 0;
+      return;
+    }
+    if (length < 2) return;
+    at += length;
+  }
 }
 
 void DecodeJpeg(std::span<const std::byte> bytes, const std::string& name, int piece_rows,
