@@ -2,13 +2,13 @@
 #include <cstdio>
 
 #include "facet/facet.h"
-#include "toon.shader.h"  // written by facet_add_shader(my_own_shader Toon toon.h)
+#include "toon.shader.h"  // written by facet_add_shader(), see docs/library.md
 
 int main(int argc, char** argv) {
   if (argc != 3) return std::fprintf(stderr, "usage: my_own_shader IN.glb OUT.png\n"), 2;
   try {
     const facet::LoadedScene loaded = facet::LoadGltf(argv[1]);
-    const auto toon = facet::MakeToon();
+    const auto toon = facet::MakeToon({.shade_below = 0.3f, .shine_above = 0.7f});
     facet::RenderSettings settings;
     settings.width = 640;
     settings.height = 480;

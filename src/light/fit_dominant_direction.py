@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Prints the weight of the normal in DominantDirection() (material/closure-inl.h), by roughness.
+"""Prints the weight of the normal in DominantDirection() (material/lobes/specular-inl.h), by roughness.
 
 Spheres of white metal under skies of random soft lamps: the light that each point reflects by the exact integral over
 the hemisphere, and by the split sum with the prefiltered sky read along mix(mirror, normal, t). Printed: the t with the
