@@ -10,6 +10,7 @@
 #include "base/printable.h"
 #include "cli/camera_text.h"
 #include "cli/info_summary.h"
+#include "material/models/models.h"
 
 namespace facet::cli {
 namespace {
@@ -92,8 +93,9 @@ std::string Describe(const MaterialSummary& summary) {
     case AlphaMode::Blend: parts.push_back("blended"); break;
   }
   if (material.double_sided) parts.push_back("double-sided");
-  if (material.model == ShadingModel::Unlit) parts.push_back("unlit");
-  if (material.model == ShadingModel::MetallicRoughness) {
+  if (material.model != ShadingModel::MetallicRoughness) {
+    parts.push_back(InfoOf(material.model).word);
+  } else {
     parts.push_back(Format("metallic %g", static_cast<double>(material.metallic_factor)));
     parts.push_back(Format("roughness %g", static_cast<double>(material.roughness_factor)));
   }

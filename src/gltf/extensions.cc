@@ -16,9 +16,11 @@ bool IsSupported(const std::string& extension) {
       // Only say something about the data; leaving them aside is all that there is to do.
       "FB_ngon_encoding", "KHR_xmp", "KHR_xmp_json_ld"};
   bool supported = std::find(std::begin(kSupported), std::end(kSupported), extension) != std::end(kSupported);
-  const auto add = [&](const char* name) { supported = supported || (name != nullptr && extension == name); };
-  for (const ModelInfo& model : kModels) add(model.gltf_extension);
-  ForEachParameter([&](const auto& parameter) { add(parameter.gltf_group); });
+  const auto compare = [&](const char* name) {
+    supported = supported || (name != nullptr && IsExtension(name) && extension == name);
+  };
+  for (const ModelInfo& model : kModels) compare(model.gltf_extension);
+  ForEachParameter([&](const auto& parameter) { compare(parameter.gltf_group); });
   return supported;
 }
 

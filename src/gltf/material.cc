@@ -31,8 +31,6 @@ class MaterialReader {
   }
 
  private:
-  static bool IsExtension(std::string_view group) { return group.find('_') != group.npos; }
-
   // An object within the material, or an extension of it; null where there is none. What is wrong with it is said once.
   const Json* Group(const char* name) {
     const auto [known, is_new] = groups_.try_emplace(name);

@@ -19,9 +19,7 @@ MaterialFeatures FeaturesOf(const Material& m, bool on_surface) {
   set((model.texture_slots & BitOf(Slot::Emissive)) != 0 && Emits(m), kEmission);
   for (const SlotInfo& slot : kSlots) {
     const bool is_read = (model.texture_slots & BitOf(slot.slot)) != 0 && (lit || !slot.needs_light);
-    const bool is_seen = bool(m.*slot.ref) && is_read && slot.is_visible(m);
-    set(is_seen, BitOf(slot.slot));
-    set(is_seen && slot.tangent_space, kTangentSpace);
+    set(bool(m.*slot.ref) && is_read && slot.is_visible(m), BitOf(slot.slot));
   }
   const bool is_metal = m.metallic_factor == 1.0f && (features & BitOf(Slot::MetallicRoughness)) == 0;
   set(lit && !is_metal, kDiffuseLobe);

@@ -16,9 +16,8 @@ enum MaterialFeature : std::uint64_t {
   kAlphaTest = kFirstFeature << 2,   // MASK
   kAlphaBlend = kFirstFeature << 3,  // BLEND
   kDoubleSided = kFirstFeature << 4,
-  kTangentSpace = kFirstFeature << 5,  // some texture is read in tangent space
-  kDiffuseLobe = kFirstFeature << 6,   // not all of it is metal
-  kLobes = kDiffuseLobe,               // all of a closure's that a material may lack
+  kDiffuseLobe = kFirstFeature << 5,  // not all of it is metal
+  kLobes = kDiffuseLobe,              // all of a closure's that a material may lack
 };
 using MaterialFeatures = std::uint64_t;
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <limits>
+#include <string_view>
 
 #include "facet/scene.h"
 #include "material/slots.h"
@@ -22,6 +23,9 @@ struct Parameter {
   Value Material::*member;
   ParameterRange range = {};  // of numbers
 };
+
+// Whether a parameter's group is an extension: of glTF's names theirs alone have an underscore.
+constexpr bool IsExtension(std::string_view group) { return group.find('_') != group.npos; }
 
 // Calls visit(Parameter<Value>) for each, in the order in which the hash of a scene reads them.
 template <class Visit>

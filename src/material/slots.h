@@ -70,6 +70,12 @@ constexpr const SlotInfo& InfoOf(Slot slot) { return kSlots[IndexOf(slot)]; }
 constexpr MaterialFeatures BitOf(Slot slot) { return MaterialFeatures{1} << IndexOf(slot); }
 inline constexpr MaterialFeatures kTextureBits = (MaterialFeatures{1} << kSlotCount) - 1;
 static_assert(kTextureBits < kFirstFeature);
+// Of those textures that are read in tangent space, for which surfaces need tangents.
+inline constexpr MaterialFeatures kTangentSpaceBits = [] {
+  MaterialFeatures bits = 0;
+  for (const SlotInfo& slot : kSlots) bits |= slot.tangent_space ? BitOf(slot.slot) : 0;
+  return bits;
+}();
 static_assert(
     [] {
       for (std::size_t i = 0; i < kSlotCount; ++i) {

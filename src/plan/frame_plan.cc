@@ -181,7 +181,7 @@ FramePlan MakeFramePlan(const Scene& scene, const PosedScene& posed, const Rende
     decide_of_materials(any_has(BitOf(slot.slot)), slot.feature, std::string(slot.name) + "s",
                         "no drawn material has one");
   }
-  if (!any_has(kTangentSpace)) plan.left_out.emplace_back("tangents: no normal texture is read");
+  if (!any_has(kTangentSpaceBits)) plan.left_out.emplace_back("tangents: no normal texture is read");
   decide_of_materials(any_has(kEmission), Feature::Emission, "emission", "no drawn material emits");
   decide_of_materials(any([](const FrameMaterial& m) { return m.vertex_colors; }), Feature::VertexColors,
                       "vertex colours", "no drawn geometry has them");

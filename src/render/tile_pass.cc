@@ -197,7 +197,7 @@ class TileWorker final : public RecordTable {
       const TriangleChunk& chunk = in_.geometry.chunks[run.chunk];
       const int material = in_.geometry.drawables[chunk.drawable].material;
       FrameMaterial m = in_.plan.materials[std::size_t(material)].frame;
-      m.features &= ~(kLit | kTangentSpace);  // alpha needs neither place nor direction
+      m.features &= ~(kLit | kTangentSpaceBits);  // alpha needs neither place nor direction
       for (std::uint32_t first = run.begin; first < run.end; first += kBatch) {
         masked_.list.Clear();
         RasterCollect(Gather({{run.chunk, first, std::min<std::uint32_t>(run.end, first + kBatch)}}), behind_masked_,

@@ -90,7 +90,7 @@ HWY_INLINE void InterpolateFrom(const ShadeTask& task, Base base, T x, T y, Surf
     s.interpolated_normal = Xyz(InterpolateVec4(setups, base, w, SetupLayout::kNormals, 3));
     s.normal = NormalizeOr(s.interpolated_normal, s.view);
   }
-  if (material.Has(kTangentSpace)) s.tangent = InterpolateVec4(setups, base, w, SetupLayout::kTangents, 4);
+  if (material.Has(kTangentSpaceBits)) s.tangent = InterpolateVec4(setups, base, w, SetupLayout::kTangents, 4);
   for (int slot = 0; slot < material.uv_slots; ++slot) {
     const float* p = setups + SetupLayout::kTexCoords + 6 * slot;
     const Vec4<T> uv01 = FetchVec4<T>(p, base), uv12 = FetchVec4<T>(p + 2, base);
@@ -103,8 +103,8 @@ HWY_INLINE void InterpolateFrom(const ShadeTask& task, Base base, T x, T y, Surf
   }
 }
 
-// The surface under fragment i of `task`, or those of all lanes from i on: what its material reads. The rest is zero,
-// but for the texture coordinates, which are not set.
+// The surface under fragment i of `task`, or those of all lanes from i on: what its material reads. The rest becomes
+// zero, but for texture coordinates, which stay as they are.
 template <class T>
 HWY_INLINE void InterpolateSurface(const ShadeTask& task, std::size_t i, Surface<T>& s) {
   const T x = Load<T>(task.x + i), y = Load<T>(task.y + i);
@@ -116,7 +116,7 @@ HWY_INLINE void InterpolateSurface(const ShadeTask& task, std::size_t i, Surface
 }
 template <class T>
 HWY_INLINE Surface<T> InterpolateSurface(const ShadeTask& task, std::size_t i) {
-  Surface<T> s;
+  Surface<T> s{};
   InterpolateSurface(task, i, s);
   return s;
 }

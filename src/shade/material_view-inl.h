@@ -115,6 +115,7 @@ class MaterialView {
   HWY_INLINE explicit MaterialView(const FrameMaterial& material, TextureReader<T>* ahead = nullptr)
       : m_(material), ahead_(ahead) {}
 
+  HWY_INLINE ShadingModel Model() const { return m_.model; }
   HWY_INLINE bool Lit() const { return m_.Has(kLit); }
   HWY_INLINE bool Emits() const { return m_.Has(kEmission); }
 

@@ -3,15 +3,12 @@
 #include <algorithm>
 #include <iterator>
 
-#include "material/models/models.h"
-
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "shade/shade_fragments.cc"
 #include "hwy/foreach_target.h"
 // Must come after foreach_target.h.
 #include "facet/shader/dispatch.h"
-#include "material/models/metallic_roughness-inl.h"
-#include "material/models/unlit-inl.h"
+#include "material/models/all-inl.h"
 #include "shade/shade_packets-inl.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -4,9 +4,7 @@
 #include <limits>
 
 #include "light/lighting-inl.h"
-#include "material/models/metallic_roughness-inl.h"
-#include "material/models/models.h"
-#include "material/models/unlit-inl.h"
+#include "material/models/all-inl.h"
 #include "shade/interpolate-inl.h"
 #include "shade/material_view-inl.h"
 #include "shade/shade_task.h"
@@ -23,21 +21,11 @@ bool IsFiniteFloat(double x) { return std::fabs(x) <= double{std::numeric_limits
 class DoubleShader final : public FragmentShader {
  public:
   void Shade(const ShadeTask& task) const override {
-    switch (task.material->model) {
-#define FACET_MODEL_CASE(Name) \
-  case ShadingModel::Name: return ShadeAll(task, lanes::Name());
-      FACET_SHADING_MODELS(FACET_MODEL_CASE)
-#undef FACET_MODEL_CASE
-    }
-  }
-
- private:
-  template <class Model>
-  static void ShadeAll(const ShadeTask& task, const Model& model) {
     const lanes::MaterialView<double> material(*task.material);
     const lanes::LightingView<double> lighting(*task.lighting);
     for (std::size_t i = 0; i < task.count; ++i) {
-      const lanes::Shaded<double> shaded = model(lanes::InterpolateSurface<double>(task, i), material, lighting);
+      const lanes::Shaded<double> shaded =
+          lanes::ModelOfMaterial()(lanes::InterpolateSurface<double>(task, i), material, lighting);
       const lanes::Vec3<double> c = shaded.color;
       const bool finite = IsFiniteFloat(c.x) && IsFiniteFloat(c.y) && IsFiniteFloat(c.z) && IsFiniteFloat(shaded.alpha);
       task.red[i] = finite ? static_cast<float>(c.x) : 0.0f;

@@ -21,7 +21,7 @@ template <class Shader>
 HWY_INLINE void ShadePackets(const ShadeTask& task, const Shader& shader) {
   const LightingView<Float> lighting(*task.lighting);
   const std::size_t lanes = LaneCount();
-  Surface<Float> surfaces[2];  // of this packet and the next
+  Surface<Float> surfaces[2] = {};  // of this packet and the next; zero where no packet of the batch writes
   TextureReader<Float> readers[2] = {TextureReader<Float>(surfaces[0]), TextureReader<Float>(surfaces[1])};
   const auto prepare = [&](std::size_t first, int place) HWY_ATTR {
     InterpolateSurface(task, first, surfaces[place]);

@@ -203,7 +203,7 @@ void SetUpGroup(const SetupTask& task, const Group& group, SetupLanes& out) {
       out.Put(SetupLayout::kNormals + 3 * i, normal);
     }
   }
-  if (task.material->Has(kTangentSpace)) {
+  if (task.material->Has(kTangentSpaceBits)) {
     for (int i = 0; i < 3; ++i) {
       const Point turned = Transform(drawable.eye_relative_from_mesh, group.tangents.Get(i), 0.0);
       const Point x_axis{Double(1.0), Double(0.0), Double(0.0)};
@@ -215,7 +215,7 @@ void SetUpGroup(const SetupTask& task, const Group& group, SetupLanes& out) {
 
 // What is only copied.
 void CopyAttributes(const FrameMaterial& material, const Primitive& geometry, const Vertices& vertex, float* setup) {
-  if (material.Has(kTangentSpace) && !geometry.tangents.empty()) {
+  if (material.Has(kTangentSpaceBits) && !geometry.tangents.empty()) {
     float* handedness = setup + SetupLayout::kTangents + 3;
     for (int i = 0; i < 3; ++i) handedness[4 * i] *= geometry.tangents[vertex[std::size_t(i)]].w;
   }
@@ -242,7 +242,7 @@ void SetUpTrianglesKernel(const SetupTask& task) {
   constexpr std::size_t kAhead = 16;  // triangles: twice the most lanes
   static_assert(kAhead >= 2 * kMaxDoubles);
   const FrameMaterial& material = *task.material;
-  const bool lit = material.Has(kLit), tangent_space = material.Has(kTangentSpace);
+  const bool lit = material.Has(kLit), tangent_space = material.Has(kTangentSpaceBits);
   const auto stride = std::size_t(SetupLayout::Stride(material.uv_slots));
   const int count = tangent_space ? SetupLayout::kColors : lit ? SetupLayout::kTangents : SetupLayout::kPositions;
   Vertices vertices[kAhead];  // of triangle i at i % kAhead

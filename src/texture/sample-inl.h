@@ -1,4 +1,4 @@
-// Reading textures: wrapping, bilinear, trilinear and anisotropic filtering, in linear light. T is Float, float or double.
+// Reading textures: wrapping, bilinear, trilinear and anisotropic filtering, in linear light. T: Float, float or double.
 
 #if defined(FACET_TEXTURE_SAMPLE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef FACET_TEXTURE_SAMPLE_INL_H_
@@ -196,7 +196,7 @@ struct TextureTaps {
   T reach;     // how far from it they read, at most, texels of level 0
 };
 
-// Whether samples of both slots at the same texture coordinates read the same places.
+// Whether two textures are sampled alike: at the same texture coordinates the same taps serve both.
 HWY_INLINE bool HaveSameTaps(const BoundTexture& a, const BoundTexture& b) {
   const TextureData &p = *a.data, &q = *b.data;
   const Sampler &f = a.sampler, &g = b.sampler;
@@ -208,7 +208,7 @@ HWY_INLINE bool HaveSameTaps(const BoundTexture& a, const BoundTexture& b) {
   return same;
 }
 
-// The places that a sample of `texture` reads at interpolated coordinates with their derivatives over one pixel.
+// Texel addresses and weights of a sample of `texture`, from its coordinates and their derivatives over one pixel.
 template <class T>
 HWY_NOINLINE void MakeTextureTaps(const BoundTexture& texture, const Vec2<T>& uv_in, const Vec2<T>& duv_dx_in,
                                   const Vec2<T>& duv_dy_in, TextureTaps<T>& out) {
@@ -477,7 +477,7 @@ HWY_INLINE Vec4<T> ChannelsOf(const TextureData& data, const TexelSums<T>& sums)
   return c;
 }
 
-// What `texture` shows at places that were made for it, or for one that has the same.
+// Filters `texture` by taps that were made for it, or for one that is sampled alike.
 template <int kChannels, class T>
 HWY_INLINE Vec4<T> ReadTexture(const BoundTexture& texture, const TextureTaps<T>& taps) {
   TexelSums<T> sums;

@@ -32,7 +32,7 @@ TEST(MaterialFeatures, WhatIsNotAllMetalHasADiffuseLobe) {
 TEST(MaterialFeatures, EverythingIsSeen) {
   EXPECT_EQ(FeaturesOf(Textured()), kLit | BitOf(Slot::BaseColor) | BitOf(Slot::MetallicRoughness) |
                                         BitOf(Slot::Normal) | BitOf(Slot::Occlusion) | BitOf(Slot::Emissive) |
-                                        kEmission | kTangentSpace | kDiffuseLobe);
+                                        kEmission | kDiffuseLobe);
 }
 
 TEST(MaterialFeatures, WhatCannotShowIsLeftOut) {

@@ -86,7 +86,7 @@ ResolvedCamera CameraAt(const glm::dvec3& eye, const glm::dquat& rotation, bool 
 
 FrameMaterial ReadsEverything() {
   FrameMaterial material;
-  material.features = kLit | BitOf(Slot::Normal) | kTangentSpace;
+  material.features = kLit | BitOf(Slot::Normal);
   material.vertex_colors = true;
   material.uv_slots = 2;
   material.uv_sets[0] = 1;  // slots need not be in the order of the sets

@@ -64,7 +64,7 @@ struct Part {
 std::vector<Part> ReadParts(const FrameMaterial& material) {
   std::vector<Part> parts = {{SetupLayout::kPlanes, SetupLayout::kPositions}};
   if (material.Has(kLit)) parts.push_back({SetupLayout::kPositions, SetupLayout::kTangents});
-  if (material.Has(kTangentSpace)) parts.push_back({SetupLayout::kTangents, SetupLayout::kColors});
+  if (material.Has(kTangentSpaceBits)) parts.push_back({SetupLayout::kTangents, SetupLayout::kColors});
   if (material.vertex_colors) parts.push_back({SetupLayout::kColors, SetupLayout::kTexCoords});
   constexpr int kUv = SetupLayout::kTexCoords;
   if (material.uv_slots > 0) parts.push_back({kUv, kUv + 6 * material.uv_slots});
@@ -74,7 +74,7 @@ std::vector<Part> ReadParts(const FrameMaterial& material) {
 std::vector<FrameMaterial> Materials() {
   std::vector<FrameMaterial> materials(4);
   materials[1].features = kLit;
-  materials[2].features = kLit | BitOf(Slot::Normal) | kTangentSpace;
+  materials[2].features = kLit | BitOf(Slot::Normal);
   materials[2].vertex_colors = true;
   materials[2].uv_slots = 1;
   materials[3].vertex_colors = true;  // unlit

@@ -31,8 +31,7 @@
 #include "facet/shader/elementary-inl.h"
 #include "facet/shader/surface-inl.h"
 #include "light/lighting-inl.h"
-#include "material/models/metallic_roughness-inl.h"
-#include "material/models/unlit-inl.h"
+#include "material/models/all-inl.h"
 #include "shade/material_view-inl.h"
 #include "shade/shade_packets-inl.h"
 

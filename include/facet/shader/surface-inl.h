@@ -26,7 +26,8 @@ struct Surface {
   Vec3<T> interpolated_normal;
   Vec4<T> tangent;
   Vec4<T> color;     // vertex colour, linear; 1 where there is none
-  // Texture coordinates of each UV set that the material reads, and how they change over one pixel to the right and down.
+  // Texture coordinates of each UV set that the material reads, and how they change over one pixel to the right and down;
+  // the others are zero.
   Vec2<T> uv[kSurfaceUvSlots], duv_dx[kSurfaceUvSlots], duv_dy[kSurfaceUvSlots];
 };
 

@@ -1,6 +1,6 @@
 // What every lobe of a closure shares. A lobe is one way in which a surface reflects light, in a file of its own, and
 // has
-//   a constructor or a Make function:                what of it depends on the view alone;
+//   a constructor:                                   what of it depends on the view alone;
 //   Vec3<T> Direct(const Incidence<T>&, ...) const;  its BRDF, in 1/steradian, for light from one direction;
 //   EnvironmentTerms<T> Environment(...) const;      what it reflects of light from all around.
 // The closure (material/closure-inl.h) adds up the lobes that a material has.

@@ -2,6 +2,7 @@
 // instruction set and in double by the shading stage, which loops over FACET_SHADING_MODELS.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 
@@ -25,16 +26,12 @@ inline constexpr auto kModels = std::to_array<ModelInfo>({
     {ShadingModel::MetallicRoughness, "metallic-roughness", nullptr, kTextureBits, true},
     {ShadingModel::Unlit, "unlit", "KHR_materials_unlit", BitOf(Slot::BaseColor), false},
 });
-inline constexpr std::size_t kModelCount = kModels.size();
 
-#define FACET_MODEL_IN_ORDER(Name) &&kModels[i].model == ShadingModel::Name&& i++ < kModelCount
-static_assert(
-    [] {
-      std::size_t i = 0;
-      return true FACET_SHADING_MODELS(FACET_MODEL_IN_ORDER) && i == kModelCount;
-    }(),
-    "the table and the list of functors agree");
-#undef FACET_MODEL_IN_ORDER
+#define FACET_MODEL_OF(Name) ShadingModel::Name,
+static_assert(std::ranges::equal(std::to_array({FACET_SHADING_MODELS(FACET_MODEL_OF)}), kModels, {}, {},
+                                 &ModelInfo::model),
+              "the table and the list of functors agree");
+#undef FACET_MODEL_OF
 
 constexpr const ModelInfo& InfoOf(ShadingModel model) { return kModels[static_cast<std::size_t>(model)]; }
 
