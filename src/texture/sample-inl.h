@@ -1,4 +1,4 @@
-// Reading textures: wrapping, bilinear, trilinear and anisotropic filtering, in linear light. T: Float, float or double.
+// Reading textures in linear light: wrapping, bilinear, trilinear, anisotropic filtering. T: Float, float or double.
 
 #if defined(FACET_TEXTURE_SAMPLE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef FACET_TEXTURE_SAMPLE_INL_H_
