@@ -14,9 +14,9 @@ void Compositor::ByPixel::Fill(const FragmentList& list, std::size_t pixel_count
 }
 
 template <int kSamples>
-void Compositor::Lay(const TileBuffers& tile, const ShadedFragments& opaque, const ShadedFragments& blended,
-                     const RecordTable& records, const std::vector<glm::vec4>& background,
-                     std::vector<glm::vec4>& pixels) {
+void Compositor::Composite(const TileBuffers& tile, const ShadedFragments& opaque, const ShadedFragments& blended,
+                           std::span<const TriangleRecord* const> records, const std::vector<glm::vec4>& background,
+                           std::vector<glm::vec4>& pixels) {
   const int samples = tile.Samples<kSamples>();
   const std::size_t pixel_count = pixels.size();
   layers_of_.Fill(blended.list, pixel_count);
@@ -30,8 +30,8 @@ void Compositor::Lay(const TileBuffers& tile, const ShadedFragments& opaque, con
     const int block_x = x / kBlockSize * kBlockSize, block_y = y / kBlockSize * kBlockSize;
     planes_.clear();
     for (std::uint32_t k = begin; k < end; ++k) {
-      planes_.push_back(MakeBlockDepth(records.Record(blended.list.record[layers_of_.order[k]]), tile.x0 + block_x,
-                                       tile.y0 + block_y));
+      planes_.push_back(MakeBlockDepth(*records[std::size_t(blended.list.record[layers_of_.order[k]])],
+                                       tile.x0 + block_x, tile.y0 + block_y));
     }
     glm::vec4 sum(0.0f);
     for (int s = 0; s < samples; ++s) {
@@ -65,12 +65,12 @@ void Compositor::Lay(const TileBuffers& tile, const ShadedFragments& opaque, con
 }
 
 void Compositor::Run(const TileBuffers& tile, const ShadedFragments& opaque, const ShadedFragments& blended,
-                     const RecordTable& records, const std::vector<glm::vec4>& background,
+                     std::span<const TriangleRecord* const> records, const std::vector<glm::vec4>& background,
                      std::vector<glm::vec4>& pixels) {
   if (tile.samples == 1) {
-    Lay<1>(tile, opaque, blended, records, background, pixels);
+    Composite<1>(tile, opaque, blended, records, background, pixels);
   } else {
-    Lay<0>(tile, opaque, blended, records, background, pixels);
+    Composite<0>(tile, opaque, blended, records, background, pixels);
   }
 }
 

@@ -2,18 +2,12 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <span>
 #include <vector>
 
 #include "frame/tile.h"
 
 namespace facet {
-
-// Looks up the record behind a number of the tile.
-class RecordTable {
- public:
-  virtual ~RecordTable() = default;
-  virtual const TriangleRecord& Record(std::int32_t number) const = 0;
-};
 
 // Keeps its working memory from tile to tile. Not thread-safe: one per worker.
 class Compositor {
@@ -21,14 +15,17 @@ class Compositor {
   // Replaces, in `pixels` (tile_size a row), those that blended fragments touch. Each sample starts from the opaque
   // fragment that covers it, or from `background`, and the fragments that cover it are laid over
   // it in the order of their depth at that very sample, so that surfaces that cut through each other come out right. At
-  // equal depth the later triangle lies over the earlier. `opaque`: in the order of VisibleFragments.
+  // equal depth the later triangle lies over the earlier. `opaque`: in the order of VisibleFragments. `records`: by
+  // number in the tile.
   void Run(const TileBuffers& tile, const ShadedFragments& opaque, const ShadedFragments& blended,
-           const RecordTable& records, const std::vector<glm::vec4>& background, std::vector<glm::vec4>& pixels);
+           std::span<const TriangleRecord* const> records, const std::vector<glm::vec4>& background,
+           std::vector<glm::vec4>& pixels);
 
  private:
   template <int kSamples>
-  void Lay(const TileBuffers& tile, const ShadedFragments& opaque, const ShadedFragments& blended,
-           const RecordTable& records, const std::vector<glm::vec4>& background, std::vector<glm::vec4>& pixels);
+  void Composite(const TileBuffers& tile, const ShadedFragments& opaque, const ShadedFragments& blended,
+                 std::span<const TriangleRecord* const> records, const std::vector<glm::vec4>& background,
+                 std::vector<glm::vec4>& pixels);
 
   // Fragments by pixel: those of pixel p are order[first[p]] to order[first[p + 1] - 1], in their list's order.
   struct ByPixel {

@@ -10,6 +10,7 @@
 #include "facet/shader/dispatch.h"
 #include "facet/shader/lane-inl.h"
 #include "frame/constants.h"
+#include "frame/edge_function-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace facet {
@@ -42,13 +43,12 @@ HWY_INLINE CornerLanes Select(Mask m, const CornerLanes& a, const CornerLanes& b
 // every term is below 2^22. (Other lanes wrap, and are not asked.)
 HWY_INLINE Int CoveredSamples(const Int (&x_fx8)[3], const Int (&y_fx8)[3], Int first_x, Int first_y, int samples) {
   const Int x0 = ShiftLeft<kSubpixelBits>(first_x), y0 = ShiftLeft<kSubpixelBits>(first_y);
-  Int a[3], b[3], c[3], right[3], down[3];
+  EdgeFunction<Int> edge[3];  // from the square's corner
+  Int right[3], down[3];
   for (int i = 0; i < 3; ++i) {
     const int j = i == 2 ? 0 : i + 1;
-    a[i] = y_fx8[i] - y_fx8[j], b[i] = x_fx8[j] - x_fx8[i];
-    const Mask left_or_top = (a[i] > Int(0)) | ((a[i] == Int(0)) & (b[i] > Int(0)));
-    c[i] = Select(left_or_top, Int(0), Int(-1)) - a[i] * (x_fx8[i] - x0) - b[i] * (y_fx8[i] - y0);
-    right[i] = ShiftLeft<kSubpixelBits>(a[i]), down[i] = ShiftLeft<kSubpixelBits>(b[i]);
+    edge[i] = MakeEdgeFunction(x_fx8[i] - x0, y_fx8[i] - y0, x_fx8[j] - x0, y_fx8[j] - y0);
+    right[i] = ShiftLeft<kSubpixelBits>(edge[i].a), down[i] = ShiftLeft<kSubpixelBits>(edge[i].b);
   }
   const CoverageSquare square = CoverageSquareOf(samples);
   Int covered(0);
@@ -57,14 +57,13 @@ HWY_INLINE Int CoveredSamples(const Int (&x_fx8)[3], const Int (&y_fx8)[3], Int 
     constexpr int kUnit = kSubpixelScale / kSampleGrid;
     Int row[3];
     for (int i = 0; i < 3; ++i) {
-      row[i] = c[i] + a[i] * Int(pattern[s].x * kUnit) + b[i] * Int(pattern[s].y * kUnit);
+      row[i] = edge[i].c + edge[i].a * Int(pattern[s].x * kUnit) + edge[i].b * Int(pattern[s].y * kUnit);
     }
     for (int y = 0; y < square.side; ++y) {
       Int e[3] = {row[0], row[1], row[2]};
       for (int x = 0; x < square.side; ++x) {
-        const Mask outside = (e[0] | e[1] | e[2]) < Int(0);
         const std::uint32_t bit = 1u << (((y << square.stride_bits) + x) * samples + s);
-        covered = covered | Select(outside, Int(0), Int(static_cast<std::int32_t>(bit)));
+        covered = covered | Select(IsCovered(e[0], e[1], e[2]), Int(static_cast<std::int32_t>(bit)), Int(0));
         for (int i = 0; i < 3; ++i) e[i] = e[i] + right[i];
       }
       for (int i = 0; i < 3; ++i) row[i] = row[i] + down[i];
@@ -130,8 +129,8 @@ SmallTriangles SetUpSmallTrianglesKernel(const TriangleRun& run, std::vector<Tri
   const bool mirrored = run.drawable->mirrored, double_sided = run.drawable->double_sided;
   SmallTriangles result;
   alignas(64) std::int32_t tail[3 * kMaxLanes] = {};
-  alignas(64) std::int32_t x[3][kMaxLanes], y[3][kMaxLanes], x1[kMaxLanes], y1[kMaxLanes], x2[kMaxLanes],
-      y2[kMaxLanes], areas[kMaxLanes], covered[kMaxLanes];
+  alignas(64) std::int32_t x[3][kMaxLanes], y[3][kMaxLanes], x1[kMaxLanes], y1[kMaxLanes], x2[kMaxLanes], y2[kMaxLanes],
+      areas[kMaxLanes], covered[kMaxLanes];
   alignas(64) float depth[3][kMaxLanes], nearest[kMaxLanes], farthest[kMaxLanes];
   alignas(64) double depth_dx[kMaxLanes], depth_dy[kMaxLanes];
   for (std::uint32_t i = 0; i < run.count; i += lanes) {
@@ -151,8 +150,8 @@ SmallTriangles SetUpSmallTrianglesKernel(const TriangleRun& run, std::vector<Tri
     const Mask in_view = present & (((all & Int(kOutReject)) | (any & Int(kOutNotFinite))) == Int(0));
     const BoxLanes box({a.x, second.x, third.x}, {a.y, second.y, third.y});
     const Int most(kSmallTriangle_fx8 + 1);
-    const Mask small = ((any & Int(kOutClip)) == Int(0)) & (box.high_x - box.low_x < most) &
-                       (box.high_y - box.low_y < most);
+    const Mask small =
+        ((any & Int(kOutClip)) == Int(0)) & (box.high_x - box.low_x < most) & (box.high_y - box.low_y < most);
     if (Any(in_view & (!small))) break;
 
     const Int area = (second.x - a.x) * (third.y - a.y) - (third.x - a.x) * (second.y - a.y);

@@ -8,78 +8,17 @@
 // Must come after foreach_target.h.
 #include "facet/shader/dispatch.h"
 #include "facet/shader/lane-inl.h"
+#include "frame/edge_function-inl.h"
 
-#ifndef FACET_RASTER_EDGES_H_
-#define FACET_RASTER_EDGES_H_
+#ifndef FACET_RASTER_BLOCKS_H_
+#define FACET_RASTER_BLOCKS_H_
 namespace facet {
-
-// A triangle's three edge functions on the grid of sample positions of one block: a * x + b * y + c >= 0 inside, x and
-// y in sixteenths of a pixel from the block's corner. Exact.
-struct BlockEdges {
-  std::int32_t a[3], b[3], c[3];
-};
-
-// The edges over a whole triangle, in 1/256 pixel.
-struct TriangleEdges {
-  std::int64_t a[3], b[3], c[3];  // a * x + b * y + c, x and y in fx8 from the picture's origin; fill rule included
-
-  HWY_INLINE explicit TriangleEdges(const TriangleRecord& r) {
-    for (int i = 0; i < 3; ++i) {
-      const int j = i == 2 ? 0 : i + 1;
-      a[i] = r.y_fx8[i] - r.y_fx8[j];
-      b[i] = r.x_fx8[j] - r.x_fx8[i];
-      c[i] = -(a[i] * r.x_fx8[i] + b[i] * r.y_fx8[i]);
-      // The fill rule: a sample on an edge belongs to the triangle if the edge is a left one (inside lies towards +x)
-      // or a top one (horizontal, inside below). For integers, e > 0 is e - 1 >= 0.
-      const bool left_or_top = a[i] > 0 || (a[i] == 0 && b[i] > 0);
-      if (!left_or_top) c[i] -= 1;
-    }
-  }
-
-  // How a block lies: outside one edge, cut by some, or inside all. An edge that the whole block is inside of becomes
-  // 0 >= 0.
-  enum class Overlap { None, Part, Whole };
-  HWY_INLINE Overlap InBlock(int x_px, int y_px, BlockEdges& out) const {
-    constexpr std::int64_t kReach = kBlockSize * kSampleGrid - 1;
-    Overlap overlap = Overlap::Whole;
-    for (int i = 0; i < 3; ++i) {
-      const std::int64_t corner = Corner(i, x_px, y_px);
-      const std::int64_t low = corner + std::min<std::int64_t>(a[i], 0) * kReach + std::min<std::int64_t>(b[i], 0) * kReach;
-      const std::int64_t high = corner + std::max<std::int64_t>(a[i], 0) * kReach + std::max<std::int64_t>(b[i], 0) * kReach;
-      if (high < 0) return Overlap::None;
-      const bool inside = low >= 0;
-      if (!inside) overlap = Overlap::Part;
-      out.a[i] = inside ? 0 : static_cast<std::int32_t>(a[i]);
-      out.b[i] = inside ? 0 : static_cast<std::int32_t>(b[i]);
-      out.c[i] = inside ? 0 : static_cast<std::int32_t>(corner);
-    }
-    return overlap;
-  }
-
-  // The same without asking, for triangles that are no larger than a block and touch this one with their bounding box:
-  // their edges fit 32 bits anywhere in it.
-  HWY_INLINE Overlap AcrossBlock(int x_px, int y_px, BlockEdges& out) const {
-    for (int i = 0; i < 3; ++i) {
-      out.a[i] = static_cast<std::int32_t>(a[i]);
-      out.b[i] = static_cast<std::int32_t>(b[i]);
-      out.c[i] = static_cast<std::int32_t>(Corner(i, x_px, y_px));
-    }
-    return Overlap::Part;
-  }
-
-  // Edge i at a block's corner, divided by 16, rounding down: a and b multiply whole sixteenths of a pixel, that is
-  // multiples of 16 fx8.
-  HWY_INLINE std::int64_t Corner(int i, int x_px, int y_px) const {
-    return (a[i] * (std::int64_t{x_px} << kSubpixelBits) + b[i] * (std::int64_t{y_px} << kSubpixelBits) + c[i]) >> 4;
-  }
-};
-static_assert(kSubpixelScale / kSampleGrid == 16, "the shift in Corner");
 
 // The part of a triangle's bounding box that lies in the tile, in blocks and rows of it.
 struct BlockRange {
-  int x0, y0, x1, y1;        // blocks within the tile, inclusive
-  int first_row, last_row;   // pixels within the tile
-  bool small;                // no larger than a block, so that it covers none wholly
+  int x0, y0, x1, y1;       // blocks within the tile, inclusive
+  int first_row, last_row;  // pixels within the tile
+  bool small;               // no larger than a block, so that it covers none wholly
 
   HWY_INLINE BlockRange(const TriangleRecord& r, const TileBuffers& tile) {
     const int min_x = LeastOf(r.x_fx8), max_x = GreatestOf(r.x_fx8);
@@ -152,11 +91,71 @@ struct BlockPixels {
 inline constexpr BlockPixels kBlockPixelPositions;
 
 }  // namespace facet
-#endif  // FACET_RASTER_EDGES_H_
+#endif  // FACET_RASTER_BLOCKS_H_
 
 HWY_BEFORE_NAMESPACE();
 namespace facet {
 namespace HWY_NAMESPACE {
+
+// A triangle's three edge functions on the grid of sample positions of one block: a * x + b * y + c >= 0 inside, x and
+// y in sixteenths of a pixel from the block's corner. Exact.
+struct BlockEdges {
+  std::int32_t a[3], b[3], c[3];
+};
+
+// The edges over a whole triangle.
+struct TriangleEdges {
+  EdgeFunction<std::int64_t> edge[3];  // from the image's origin
+
+  HWY_INLINE explicit TriangleEdges(const TriangleRecord& r) {
+    for (int i = 0; i < 3; ++i) {
+      const int j = i == 2 ? 0 : i + 1;
+      edge[i] = MakeEdgeFunction<std::int64_t>(r.x_fx8[i], r.y_fx8[i], r.x_fx8[j], r.y_fx8[j]);
+    }
+  }
+
+  // How a block lies: outside one edge, cut by some, or inside all. An edge that the whole block is inside of becomes
+  // 0 >= 0.
+  enum class Overlap { None, Part, Whole };
+  HWY_INLINE Overlap InBlock(int x_px, int y_px, BlockEdges& out) const {
+    constexpr std::int64_t kReach = kBlockSize * kSampleGrid - 1;
+    Overlap overlap = Overlap::Whole;
+    for (int i = 0; i < 3; ++i) {
+      const std::int64_t corner = Corner(i, x_px, y_px);
+      const std::int64_t low =
+          corner + std::min<std::int64_t>(edge[i].a, 0) * kReach + std::min<std::int64_t>(edge[i].b, 0) * kReach;
+      const std::int64_t high =
+          corner + std::max<std::int64_t>(edge[i].a, 0) * kReach + std::max<std::int64_t>(edge[i].b, 0) * kReach;
+      if (high < 0) return Overlap::None;
+      const bool inside = low >= 0;
+      if (!inside) overlap = Overlap::Part;
+      out.a[i] = inside ? 0 : static_cast<std::int32_t>(edge[i].a);
+      out.b[i] = inside ? 0 : static_cast<std::int32_t>(edge[i].b);
+      out.c[i] = inside ? 0 : static_cast<std::int32_t>(corner);
+    }
+    return overlap;
+  }
+
+  // The same without asking, for triangles that are no larger than a block and touch this one with their bounding box:
+  // their edges fit 32 bits anywhere in it.
+  HWY_INLINE Overlap AcrossBlock(int x_px, int y_px, BlockEdges& out) const {
+    for (int i = 0; i < 3; ++i) {
+      out.a[i] = static_cast<std::int32_t>(edge[i].a);
+      out.b[i] = static_cast<std::int32_t>(edge[i].b);
+      out.c[i] = static_cast<std::int32_t>(Corner(i, x_px, y_px));
+    }
+    return Overlap::Part;
+  }
+
+  // Edge i at a block's corner, divided by 16, rounding down: a and b multiply whole sixteenths of a pixel, that is
+  // multiples of 16 fx8.
+  HWY_INLINE std::int64_t Corner(int i, int x_px, int y_px) const {
+    return (edge[i].a * (std::int64_t{x_px} << kSubpixelBits) + edge[i].b * (std::int64_t{y_px} << kSubpixelBits) +
+            edge[i].c) >>
+           4;
+  }
+};
+static_assert(kSubpixelScale / kSampleGrid == 16, "the shift in Corner");
 
 // Calls visit(offset, sample, passed, depth) for each group of lanes of each sample of each block that the triangle
 // touches: `offset` is the group's place in the tile's buffers, `passed` the lanes that are covered and pass the depth
@@ -192,9 +191,8 @@ HWY_INLINE void VisitCoverage(const TriangleRecord& r, const TileBuffers& tile, 
         const Int e2 = Int(e.a[2]) * px + Int(e.b[2]) * py + Int(e.c[2]);
         for (int s = 0; s < samples; ++s) {
           const int sx = pattern[s].x, sy = pattern[s].y;
-          const Int inside = (e0 + Int(e.a[0] * sx + e.b[0] * sy)) | (e1 + Int(e.a[1] * sx + e.b[1] * sy)) |
-                             (e2 + Int(e.a[2] * sx + e.b[2] * sy));
-          const Mask covered = !(inside < Int(0));
+          const Mask covered = IsCovered(e0 + Int(e.a[0] * sx + e.b[0] * sy), e1 + Int(e.a[1] * sx + e.b[1] * sy),
+                                         e2 + Int(e.a[2] * sx + e.b[2] * sy));
           if (!Any(covered)) continue;
           const Float x = ToFloat(px + Int(sx)) * Float(1.0f / kSampleGrid);
           const Float y = ToFloat(py + Int(sy)) * Float(1.0f / kSampleGrid);

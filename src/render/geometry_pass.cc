@@ -94,7 +94,8 @@ void RunGeometry(const FrameView& view, const PosedScene& posed, const FramePlan
   }
   stats.triangles_binned = record_count;
   if (record_count > INT32_MAX) {
-    throw Error(ErrorCode::OutOfMemory, "the scene has more than 2^31 triangles on the screen", {}, "render it in parts");
+    throw Error(ErrorCode::OutOfMemory, "the scene has more than 2^31 triangles on the screen", {},
+                "render it in parts");
   }
 }
 

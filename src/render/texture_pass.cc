@@ -26,8 +26,8 @@ double ExpectedBytes(const ImageHeader& header, const PlannedTexture& planned, T
   const bool grey = header.channels == 1 || header.channels == 2, no_alpha = header.channels % 2 == 1;
   const auto read = static_cast<unsigned>(planned.channels & (no_alpha ? kRgb : kRgba));
   const int numbers = grey ? ((read & kRgb) != 0) + ((read & kA) != 0) : std::popcount(read);
-  const bool wide = texels == TexelBits::Mixed ? planned.role == TextureRole::Color || header.bits > 8
-                                               : texels == TexelBits::Sixteen;
+  const bool wide =
+      texels == TexelBits::Mixed ? planned.role == TextureRole::Color || header.bits > 8 : texels == TexelBits::Sixteen;
   return double(TexelCount(header.width, header.height, planned.mips)) * (wide ? 2.0 : 1.0) * std::max(numbers, 1);
 }
 
@@ -67,8 +67,9 @@ Image WhitePixel() { return {1, 1, 4, ChannelType::U8, Encoding::Srgb, std::vect
 
 }  // namespace
 
-void DecodeTextures(const Scene& scene, const std::vector<bool>& material_visible, TexelBits texels, FramePlan& plan,
-                    FrameTextures& textures, MemoryBudget& budget, const WorkBeside& beside, RenderStats& stats) {
+void DecodeTextures(const Scene& scene, const std::vector<bool>& material_visible, TexelBits texels,
+                    const FramePlan& plan, FrameTextures& textures, MemoryBudget& budget, const WorkBeside& beside,
+                    RenderStats& stats) {
   if (textures.planned != plan.textures || textures.texels != texels) {
     FrameTextures now{plan.textures, texels, {}};
     now.entries.resize(plan.textures.size());
@@ -100,7 +101,8 @@ void DecodeTextures(const Scene& scene, const std::vector<bool>& material_visibl
     if (!needed[t] || entry.data != nullptr || !entry.problem.empty()) continue;
     const int image = plan.textures[t].image;
     if (image == kWhiteImage) {
-      entry.data = std::make_unique<const TextureData>(BuildTexture(WhitePixel(), plan.textures[t].role, false, texels));
+      entry.data =
+          std::make_unique<const TextureData>(BuildTexture(WhitePixel(), plan.textures[t].role, false, texels));
       continue;
     }
     std::vector<std::size_t>& known = textures_of[std::size_t(image)];
@@ -159,9 +161,9 @@ void DecodeTextures(const Scene& scene, const std::vector<bool>& material_visibl
     if (needed[t] && entry.data != nullptr) {
       const TextureData& data = *entry.data;
       stats.texture_bytes += data.bytes.size();
-      stats.textures.push_back({plan.textures[t].image, plan.textures[t].role == TextureRole::Color, data.level_width[0],
-                                data.level_height[0], data.levels, data.stored, data.wide ? 16 : 8, data.bytes.size(),
-                                data.dark.Share()});
+      stats.textures.push_back({plan.textures[t].image, plan.textures[t].role == TextureRole::Color,
+                                data.level_width[0], data.level_height[0], data.levels, data.stored, data.wide ? 16 : 8,
+                                data.bytes.size(), data.dark.Share()});
     }
     if (!needed[t] || (entry.problem.empty() && entry.damage.empty())) continue;
     const int image = plan.textures[t].image;
@@ -171,15 +173,20 @@ void DecodeTextures(const Scene& scene, const std::vector<bool>& material_visibl
     if (said.insert(warning).second) stats.warnings.push_back(warning);
     if (!entry.problem.empty() && !textures_of[std::size_t(image)].empty()) --stats.images_decoded;
   }
+}
 
-  for (PlannedMaterial& material : plan.materials) {
-    FrameMaterial& f = material.frame;
-    ForEachSlot(f.features, [&](Slot slot) {
-      const TextureData* const data = textures.entries[std::size_t(material.textures[IndexOf(slot)])].data.get();
-      f.textures[IndexOf(slot)].data = data;
-      if (data == nullptr) f.features &= ~BitOf(slot);
+std::vector<FrameMaterial> BindTextures(const FramePlan& plan, const FrameTextures& textures) {
+  std::vector<FrameMaterial> bound;
+  bound.reserve(plan.materials.size());
+  for (const PlannedMaterial& planned : plan.materials) {
+    FrameMaterial& material = bound.emplace_back(planned.frame);
+    ForEachSlot(planned.frame.features, [&](Slot slot) {
+      const TextureData* const data = textures.entries[std::size_t(planned.textures[IndexOf(slot)])].data.get();
+      material.textures[IndexOf(slot)].data = data;
+      if (data == nullptr) material.features &= ~BitOf(slot);
     });
   }
+  return bound;
 }
 
 }  // namespace facet

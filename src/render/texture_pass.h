@@ -31,11 +31,16 @@ struct WorkBeside {
   std::size_t size = 0;  // about as long as a picture's file of so many bytes takes to decode
 };
 
-// Decodes what visible materials read and `textures` lacks, runs `beside`, and fills the texture slots of the plan's
-// materials. An image that cannot be decoded gives a warning, and the materials do without it. Throws
+// Decodes what visible materials read and `textures` lacks, and runs `beside`. An image that cannot be decoded gives a
+// warning. Throws
 // Error(MissingModule) where an image needs a module that is not installed, Error(OutOfMemory) for images beyond the
 // limits, before any is decoded where their headers say so.
-void DecodeTextures(const Scene& scene, const std::vector<bool>& material_visible, TexelBits texels, FramePlan& plan,
-                    FrameTextures& textures, MemoryBudget& budget, const WorkBeside& beside, RenderStats& stats);
+void DecodeTextures(const Scene& scene, const std::vector<bool>& material_visible, TexelBits texels,
+                    const FramePlan& plan, FrameTextures& textures, MemoryBudget& budget, const WorkBeside& beside,
+                    RenderStats& stats);
+
+// The plan's materials with their textures, which must outlive them. A material does without those that could not be
+// decoded.
+std::vector<FrameMaterial> BindTextures(const FramePlan& plan, const FrameTextures& textures);
 
 }  // namespace facet

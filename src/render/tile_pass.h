@@ -1,24 +1,23 @@
-// From tile lists to the film: the raster, shade, blend and resolve stages, tile by tile.
+// From tile lists to pixels: visibility, shading, blending and resolve, tile by tile.
 #pragma once
 
+#include <functional>
 #include <glm/glm.hpp>
 
 #include "facet/render.h"
 #include "film/develop_pixels.h"
-#include "frame/tile_grid.h"
 #include "light/lighting.h"
-#include "render/geometry_pass.h"
+#include "render/background.h"
+#include "render/tiled_view.h"
 
 namespace facet {
 
 struct TilePassInput {
-  const FrameView& view;
-  const FramePlan& plan;
-  const FrameGeometry& geometry;
-  const TileGrid& grid;
-  const LightingData& lighting;    // of the scene
-  const LightingData& background;  // what is seen behind it
-  const RenderSettings& settings;
+  const TiledView& view;
+  const LightingData& lighting;
+  bool cull_lights = true;  // false: shaders get every light at every fragment
+  const Background& background;
+  const std::function<void(double)>& progress;  // may be empty
 };
 
 // Where the pixels of tiles go: to a film, or developed at once, while they are in the nearest cache, to a picture.

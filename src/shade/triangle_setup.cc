@@ -158,6 +158,7 @@ HWY_INLINE void PutPlanes(const Point (&h)[3], RecordKind kind, SetupLanes& out)
 // becomes of those is not read.
 struct Group {
   const FrameDrawable* drawable;
+  const Primitive* geometry;
   RecordKind kind;
   Corners positions, normals, tangents;
   alignas(64) double sides[kMaxDoubles];  // -1 for those seen from behind
@@ -196,7 +197,7 @@ void SetUpGroup(const SetupTask& task, const Group& group, SetupLanes& out) {
     const auto flat = [&]() HWY_ATTR {
       return UnitOr(Cross(position[1] - position[0], position[2] - position[0]) * mirrored_side, toward_eye);
     };
-    const bool given = !drawable.geometry->normals.empty();
+    const bool given = !group.geometry->normals.empty();
     for (int i = 0; i < 3; ++i) {
       const Point normal =
           given ? UnitOr(Transform(drawable.normal_from_mesh, group.normals.Get(i)) * side, flat) : flat();
@@ -249,13 +250,13 @@ void SetUpTrianglesKernel(const SetupTask& task) {
   const auto place = [](std::size_t i) { return i % kAhead; };
   const auto ask_for_indices = [&](std::size_t i) HWY_ATTR {
     if (i >= task.count) return;
-    const auto& indices = task.drawables[task.records[i]->drawable].geometry->indices;
+    const auto& indices = task.attributes[task.records[i]->drawable]->indices;
     const std::size_t first = std::size_t(task.records[i]->primitive) * 3;  // of a strip it is elsewhere: no harm
     if (first + 2 < indices.size()) __builtin_prefetch(&indices[first]);
   };
   const auto ask_for_vertices = [&](std::size_t i) HWY_ATTR {
     if (i >= task.count) return;
-    const Primitive& geometry = *task.drawables[task.records[i]->drawable].geometry;
+    const Primitive& geometry = *task.attributes[task.records[i]->drawable];
     const Vertices vertex = PrimitiveVertices(geometry, task.records[i]->primitive);
     vertices[place(i)] = vertex;
     const glm::vec3* positions = geometry.positions.data();
@@ -269,8 +270,9 @@ void SetUpTrianglesKernel(const SetupTask& task) {
   SetupLanes out;
   for (std::size_t i = 0; i < task.count;) {
     group.drawable = task.drawables + task.records[i]->drawable;
+    group.geometry = task.attributes[task.records[i]->drawable];
     group.kind = task.records[i]->kind;
-    const Primitive& geometry = *group.drawable->geometry;
+    const Primitive& geometry = *group.geometry;
     const glm::vec3* positions = geometry.positions.data();
     const glm::vec3* normals = lit && !geometry.normals.empty() ? geometry.normals.data() : nullptr;
     const glm::vec4* tangents = tangent_space && !geometry.tangents.empty() ? geometry.tangents.data() : nullptr;

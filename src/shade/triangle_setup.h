@@ -15,9 +15,9 @@ struct SetupLayout {
   static constexpr int kPlanes = 0;
   static constexpr int kPositions = kPlanes + 9;
   static constexpr int kNormals = kPositions + 9;
-  static constexpr int kTangents = kNormals + 9;     // x, y, z, handedness
-  static constexpr int kColors = kTangents + 12;     // R, G, B, A
-  static constexpr int kTexCoords = kColors + 12;    // of UV slot k: 6 numbers at kTexCoords + 6 k
+  static constexpr int kTangents = kNormals + 9;   // x, y, z, handedness
+  static constexpr int kColors = kTangents + 12;   // R, G, B, A
+  static constexpr int kTexCoords = kColors + 12;  // of UV slot k: 6 numbers at kTexCoords + 6 k
 
   // Floats from one setup to the next where a material reads so many UV sets: a multiple of 16 bytes.
   static constexpr int Stride(int uv_slots) { return (kTexCoords + 6 * uv_slots + 3) / 4 * 4; }
@@ -27,9 +27,10 @@ struct SetupLayout {
 // Triangles, lines or points of one material, to be set up for the fragments of a tile.
 struct SetupTask {
   const FrameView* view = nullptr;
-  const FrameDrawable* drawables = nullptr;  // by TriangleRecord::drawable
+  const FrameDrawable* drawables = nullptr;      // by TriangleRecord::drawable
+  const Primitive* const* attributes = nullptr;  // likewise: the geometry, with what the material reads of it
   const FrameMaterial* material = nullptr;
-  int anchor_x = 0, anchor_y = 0;            // pixels
+  int anchor_x = 0, anchor_y = 0;  // pixels
   const TriangleRecord* const* records = nullptr;
   std::size_t count = 0;
   float* setups = nullptr;  // out: SetupLayout::Stride() floats each, in the order of the records

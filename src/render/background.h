@@ -1,0 +1,31 @@
+// The environment behind the scene, composited under what a tile shows.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "frame/tile.h"
+#include "light/lighting.h"
+#include "render/view_directions.h"
+
+namespace facet {
+
+// What is the same for all tiles of a frame. Thread-safe.
+class Background {
+ public:
+  // Nothing is behind the scene.
+  Background() = default;
+  Background(const FrameView& view, const LightingData& lighting)
+      : lighting_(&lighting), directions_(MakeViewDirections(view)) {}
+
+  bool IsThere() const { return lighting_ != nullptr; }
+
+  // Of pixels that are not wholly covered. `pixels`: of the tile, tile_size a row.
+  void CompositeUnder(const TileBuffers& tile, std::vector<glm::vec4>& pixels) const;
+
+ private:
+  const LightingData* lighting_ = nullptr;
+  ViewDirections directions_;
+};
+
+}  // namespace facet

@@ -1,0 +1,204 @@
+#include "render/tile_shading.h"
+
+#include <algorithm>
+#include <bit>
+#include <numeric>
+
+#include "facet/shader.h"
+#include "shade/shade_fragments.h"
+#include "shade/triangle_setup.h"
+
+namespace facet {
+
+ShadingPositions::ShadingPositions(int samples) {
+  const SamplePosition* pattern = SamplePattern(samples);
+  const unsigned all = (1u << samples) - 1;
+  for (unsigned mask = 1; mask <= all; ++mask) {
+    int x = 0, y = 0, n = 0;
+    for (int s = 0; s < samples; ++s) {
+      if (mask >> s & 1) x += pattern[s].x, y += pattern[s].y, ++n;
+    }
+    x_[mask] = mask == all ? 0.5f : static_cast<float>(x) / static_cast<float>(n * kSampleGrid);
+    y_[mask] = mask == all ? 0.5f : static_cast<float>(y) / static_cast<float>(n * kSampleGrid);
+  }
+}
+
+// What the fragments of a batch, which selected_ names, have in common.
+struct TileShading::Batch {
+  const TileBuffers& tile;
+  const TileRecords& records;
+  const FrameMaterial& material;
+  const LightingData* lighting = nullptr;  // null: their alpha alone is shaded
+  std::uint64_t* non_finite = nullptr;
+};
+
+void TileShading::Shade(const TileBuffers& tile, const TileRecords& records, const LightingData& lighting,
+                        ShadedFragments& fragments, std::uint64_t& non_finite) {
+  const std::size_t n = fragments.list.Size();
+  fragments.Resize();
+  if (n == 0) return;
+  const auto shade_selected = [&](std::uint32_t material) {
+    ShadeBatch({tile, records, view_.materials[material], &lighting, &non_finite}, fragments);
+  };
+  if (records.HaveOneMaterial()) {
+    SelectAll(n);
+    return shade_selected(records.MaterialOf(fragments.list.record[0]));
+  }
+  runs_.clear();
+  std::int32_t last_number = kNoRecord;
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const std::int32_t number = fragments.list.record[i];
+    if (number != last_number) {
+      last_number = number;
+      const std::uint32_t material = records.MaterialOf(number);
+      if (runs_.empty() || runs_.back().material != material) runs_.push_back({material, i, i});
+    }
+    runs_.back().end = i + 1;
+  }
+  std::sort(runs_.begin(), runs_.end(), [](const MaterialRun& a, const MaterialRun& b) {
+    return a.material != b.material ? a.material < b.material : a.begin < b.begin;
+  });
+  for (auto run = runs_.begin(); run != runs_.end();) {
+    const std::uint32_t material = run->material;
+    selected_.clear();
+    for (; run != runs_.end() && run->material == material; ++run) {
+      for (std::uint32_t i = run->begin; i < run->end; ++i) selected_.push_back(i);
+    }
+    shade_selected(material);
+  }
+}
+
+void TileShading::ShadeAlpha(const TileBuffers& tile, const TileRecords& records, const FrameMaterial& material,
+                             ShadedFragments& fragments) {
+  fragments.Resize();
+  SelectAll(fragments.list.Size());
+  ShadeBatch({tile, records, material}, fragments);
+}
+
+void TileShading::SelectAll(std::size_t count) {
+  selected_.resize(count);
+  std::iota(selected_.begin(), selected_.end(), 0u);
+}
+
+// In parts, as 32 bits count the floats of their setups.
+void TileShading::ShadeBatch(const Batch& batch, ShadedFragments& fragments) {
+  constexpr std::size_t kMost = std::size_t{1} << 20;
+  static_assert(kMost * SetupLayout::kMostStride <= INT32_MAX);
+  if (selected_.size() <= kMost) return ShadePart(batch, fragments);
+  const std::vector<std::uint32_t> whole = selected_;
+  for (auto from = whole.begin(); from != whole.end();) {
+    const auto to = from + std::min<std::ptrdiff_t>(kMost, whole.end() - from);
+    selected_.assign(from, to);
+    ShadePart(batch, fragments);
+    from = to;
+  }
+}
+
+void TileShading::ShadePart(const Batch& batch, ShadedFragments& fragments) {
+  const std::size_t n = selected_.size(), padded = (n + kTaskPadding - 1) / kTaskPadding * kTaskPadding;
+  if (n == 0) return;
+  const bool alpha_only = batch.lighting == nullptr;
+  SetUpAttributes(batch, fragments.list, padded);
+  PlaceFragments(batch.tile, fragments.list, padded);
+  for (auto* v : {&red_, &green_, &blue_, &alpha_}) v->resize(padded);
+  ShadeTask task;
+  task.setup = setup_of_.data();
+  task.x = x_.data();
+  task.y = y_.data();
+  task.count = n;
+  task.setups = setups_.data();
+  task.material = &batch.material;
+  task.lighting = batch.lighting;
+  task.orthographic = !view_.view.perspective;
+  const glm::dvec3 toward_eye = glm::dvec3(0.0, 0.0, 1.0) * view_.view.camera_from_world;
+  for (int i = 0; i < 3; ++i) task.view_direction[i] = static_cast<float>(toward_eye[i]);
+  task.red = red_.data();
+  task.green = green_.data();
+  task.blue = blue_.data();
+  task.alpha = alpha_.data();
+  task.non_finite = batch.non_finite;
+  if (alpha_only) {
+    facet::ShadeAlpha(task);
+  } else if (batch.material.shader != nullptr) {
+    batch.material.shader->Shade(task);
+  } else {
+    ShadeFragments(task);
+  }
+  if (n == fragments.list.Size()) {  // all, and in their order
+    fragments.alpha.swap(alpha_);
+    if (!alpha_only) fragments.red.swap(red_), fragments.green.swap(green_), fragments.blue.swap(blue_);
+    fragments.Resize();
+    return;
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t f = selected_[i];
+    fragments.alpha[f] = alpha_[i];
+    if (alpha_only) continue;
+    fragments.red[f] = red_[i], fragments.green[f] = green_[i], fragments.blue[f] = blue_[i];
+  }
+}
+
+// One setup per triangle and batch; the padding has the last fragment's.
+void TileShading::SetUpAttributes(const Batch& batch, const FragmentList& list, std::size_t padded) {
+  const std::size_t n = selected_.size();
+  ++batch_number_;
+  set_up_.clear();
+  setup_of_.resize(padded);
+  setup_of_record_.resize(std::max(setup_of_record_.size(), batch.records.All().size()), {0, 0});
+  const std::uint32_t* selected = selected_.data();
+  const std::int32_t* numbers = list.record.data();
+  std::int32_t* setup_of = setup_of_.data();
+  std::int32_t last_number = kNoRecord, last_setup = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::int32_t number = numbers[selected[i]];
+    if (number != last_number) {
+      last_number = number;
+      last_setup = SetupFor(batch.records, number);
+    }
+    setup_of[i] = last_setup;
+  }
+  for (std::size_t i = n; i < padded; ++i) setup_of[i] = last_setup;
+  const std::size_t stride = std::size_t(SetupLayout::Stride(batch.material.uv_slots));
+  setups_.resize(std::max(setups_.size(), set_up_.size() * stride));
+  SetupTask task;
+  task.view = &view_.view;
+  task.drawables = view_.geometry.drawables.data();
+  task.attributes = view_.attributes.data();
+  task.material = &batch.material;
+  task.anchor_x = batch.tile.x0 & ~(kAnchorSize - 1);
+  task.anchor_y = batch.tile.y0 & ~(kAnchorSize - 1);
+  task.records = set_up_.data();
+  task.count = set_up_.size();
+  task.setups = setups_.data();
+  SetUpTriangles(task);
+}
+
+// The number of a triangle's setup in this batch.
+std::int32_t TileShading::SetupFor(const TileRecords& records, std::int32_t number) {
+  SetupOfRecord& known = setup_of_record_[std::size_t(number)];
+  if (known.batch != batch_number_) {
+    known = {batch_number_, static_cast<std::int32_t>(set_up_.size())};
+    set_up_.push_back(&records.Record(number));
+  }
+  return known.setup;
+}
+
+// Where they are shaded, in pixels from the anchor; the padding is where the last one is.
+void TileShading::PlaceFragments(const TileBuffers& tile, const FragmentList& list, std::size_t padded) {
+  const std::size_t n = selected_.size();
+  x_.resize(padded), y_.resize(padded);
+  const int tile_shift = std::countr_zero(static_cast<unsigned>(tile.tile_size));
+  const int tile_x = tile.x0 & (kAnchorSize - 1), tile_y = tile.y0 & (kAnchorSize - 1);
+  const std::uint32_t* selected = selected_.data();
+  const std::uint16_t* pixels = list.pixel.data();
+  const std::uint8_t* samples = list.samples.data();
+  float *x = x_.data(), *y = y_.data();
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t f = selected[i];
+    x[i] = static_cast<float>(tile_x + (pixels[f] & (tile.tile_size - 1))) + positions_.X(samples[f]);
+    y[i] = static_cast<float>(tile_y + (pixels[f] >> tile_shift)) + positions_.Y(samples[f]);
+  }
+  for (std::size_t i = n; i < padded; ++i) x[i] = x[n - 1], y[i] = y[n - 1];
+}
+
+}  // namespace facet

@@ -1,0 +1,74 @@
+#include "render/tile_visibility.h"
+
+#include <algorithm>
+
+namespace facet {
+
+void TileCharge::Admit(std::size_t count, std::size_t size_each, std::size_t& admitted) {
+  if (count <= admitted) return;
+  const std::size_t more = std::max(count, admitted + admitted / 2) - admitted;
+  leases_.emplace_back(more, size_each, "fragments of a tile", "", "use smaller tiles or fewer threads");
+  admitted += more;
+}
+
+bool TileVisibility::Begin(int column, int row, std::size_t list) {
+  const TileGrid& grid = view_.grid;
+  list_ = list;
+  tile_.x0 = column * grid.tile_size;
+  tile_.y0 = row * grid.tile_size;
+  tile_.width = std::min(grid.tile_size, grid.width - tile_.x0);
+  tile_.height = std::min(grid.tile_size, grid.height - tile_.y0);
+  tile_.tile_size = grid.tile_size;
+  tile_.samples = view_.samples;
+  records_.Clear();
+  const TileLists& lists = view_.geometry.lists;
+  const std::size_t count = CountOf(lists.opaque[list]) + CountOf(lists.masked[list]) + CountOf(lists.blended[list]);
+  charge_.AdmitRecords(count);
+  return count != 0;
+}
+
+void TileVisibility::Draw() {
+  const TileLists& lists = view_.geometry.lists;
+  ClearTile(tile_);
+  RasterOpaque(records_.Append(lists.opaque[list_]), tile_);
+  if (!lists.masked[list_].empty()) DrawMasked(lists.masked[list_]);
+}
+
+// In batches: their fragments are collected against the depth of the opaque triangles, their alpha alone is shaded, and
+// those that pass are written in order, each against the depth of that moment. (Collected against that depth, which
+// samples a fragment covers, hence where its alpha is read, would depend on where batches end, and so on the tile's
+// size.)
+void TileVisibility::DrawMasked(std::span<const TileRun> runs) {
+  constexpr std::size_t kBatch = 64;  // triangles
+  behind_masked_ = tile_;
+  for (const TileRun& run : runs) {
+    const TriangleChunk& chunk = view_.geometry.chunks[run.chunk];
+    FrameMaterial material = view_.materials[std::size_t(view_.geometry.drawables[chunk.drawable].material)];
+    material.features &= ~(kLit | kTangentSpaceBits);  // alpha needs neither position nor normal
+    for (std::uint32_t first = run.begin; first < run.end; first += kBatch) {
+      const TileRun part{run.chunk, first, std::min<std::uint32_t>(run.end, first + kBatch)};
+      FragmentList& list = masked_.list;
+      list.Clear();
+      RasterCollect(records_.Append({&part, 1}), behind_masked_, list);
+      shading_.ShadeAlpha(tile_, records_, material, masked_);
+      for (std::size_t i = 0; i < list.Size(); ++i) {
+        if (!(masked_.alpha[i] >= material.factors.alpha_cutoff)) continue;
+        WriteFragment(records_.Record(list.record[i]), list.record[i], list.pixel[i], list.samples[i], tile_);
+      }
+    }
+  }
+}
+
+// In batches, so that the layers of a tile, of which there may be any number, are charged as they come.
+void TileVisibility::CollectBlended(FragmentList& out) {
+  constexpr std::size_t kBatch = 256;  // triangles
+  const TileTriangles all = records_.Append(view_.geometry.lists.blended[list_]);
+  for (std::size_t first = 0; first < all.count; first += kBatch) {
+    charge_.AdmitFragments(out.Size());
+    RasterCollect({all.records + first, all.numbers + first, std::min(kBatch, all.count - first)}, tile_, out,
+                  CollectDepth::NearerOrEqual);
+  }
+  charge_.AdmitFragments(out.Size());
+}
+
+}  // namespace facet
