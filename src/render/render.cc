@@ -116,7 +116,8 @@ class Renderer::Frames {
         MakeLightingData(lights, environment, settings.environment.rotation, settings.environment.intensity);
     LightingData lighting = all_light;
     if (!plan.environment_light) lighting.environment = nullptr;  // seen behind the scene at most
-    const Background background = plan.environment_background ? Background(view, all_light) : Background();
+    const EnvironmentBackground background =
+        plan.environment_background ? EnvironmentBackground(view, all_light) : EnvironmentBackground();
     stats.environment_seconds = stage.Lap();
 
     const TiledView tiled{view, geometry_, attributes, materials, grid, settings.samples};

@@ -7,7 +7,7 @@
 #include "facet/render.h"
 #include "film/develop_pixels.h"
 #include "light/lighting.h"
-#include "render/background.h"
+#include "render/environment_background.h"
 #include "render/tiled_view.h"
 
 namespace facet {
@@ -16,7 +16,7 @@ struct TilePassInput {
   const TiledView& view;
   const LightingData& lighting;
   bool cull_lights = true;  // false: shaders get every light at every fragment
-  const Background& background;
+  const EnvironmentBackground& background;
   const std::function<void(double)>& progress;  // may be empty
 };
 

@@ -174,9 +174,9 @@ HWY_INLINE Int Gather(const std::int32_t* p, Int index) { return hn::GatherIndex
 // 0, 1, 2 ...
 HWY_INLINE Int LaneIndex() { return hn::Iota(IntTag(), 0); }
 
-// --- The same for float and double -----------------------------------------------------------------------------------
+// --- The same for float and double, selection for integers too ---------------------------------------------------------
 
-template <class T, RequireScalar<T> = 0>
+template <class T, std::enable_if_t<std::is_arithmetic_v<T>, int> = 0>
 HWY_INLINE T Select(bool m, T a, T b) { return m ? a : b; }
 template <class T, RequireScalar<T> = 0>
 HWY_INLINE T Min(T a, T b) { return a < b ? a : b; }

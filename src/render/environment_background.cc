@@ -1,10 +1,10 @@
-#include "render/background.h"
+#include "render/environment_background.h"
 
 #include "shade/shade_fragments.h"
 
 namespace facet {
 
-void Background::CompositeUnder(const TileBuffers& tile, std::vector<glm::vec4>& pixels) const {
+void EnvironmentBackground::CompositeUnder(const TileBuffers& tile, std::vector<glm::vec4>& pixels) const {
   if (!IsThere()) return;
   BackgroundTask task;
   for (int c = 0; c < 3; ++c) {

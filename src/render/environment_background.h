@@ -11,11 +11,11 @@
 namespace facet {
 
 // What is the same for all tiles of a frame. Thread-safe.
-class Background {
+class EnvironmentBackground {
  public:
   // Nothing is behind the scene.
-  Background() = default;
-  Background(const FrameView& view, const LightingData& lighting)
+  EnvironmentBackground() = default;
+  EnvironmentBackground(const FrameView& view, const LightingData& lighting)
       : lighting_(&lighting), directions_(MakeViewDirections(view)) {}
 
   bool IsThere() const { return lighting_ != nullptr; }
