@@ -105,12 +105,13 @@ struct BlockEdges {
 
 // The edges over a whole triangle.
 struct TriangleEdges {
-  EdgeFunction<std::int64_t> edge[3];  // from the image's origin
+  std::int64_t a[3], b[3], c[3];  // of its edge functions, from the image's origin
 
   HWY_INLINE explicit TriangleEdges(const TriangleRecord& r) {
     for (int i = 0; i < 3; ++i) {
       const int j = i == 2 ? 0 : i + 1;
-      edge[i] = MakeEdgeFunction<std::int64_t>(r.x_fx8[i], r.y_fx8[i], r.x_fx8[j], r.y_fx8[j]);
+      const auto edge = MakeEdgeFunction<std::int64_t>(r.x_fx8[i], r.y_fx8[i], r.x_fx8[j], r.y_fx8[j]);
+      a[i] = edge.a, b[i] = edge.b, c[i] = edge.c;
     }
   }
 
@@ -123,14 +124,14 @@ struct TriangleEdges {
     for (int i = 0; i < 3; ++i) {
       const std::int64_t corner = Corner(i, x_px, y_px);
       const std::int64_t low =
-          corner + std::min<std::int64_t>(edge[i].a, 0) * kReach + std::min<std::int64_t>(edge[i].b, 0) * kReach;
+          corner + std::min<std::int64_t>(a[i], 0) * kReach + std::min<std::int64_t>(b[i], 0) * kReach;
       const std::int64_t high =
-          corner + std::max<std::int64_t>(edge[i].a, 0) * kReach + std::max<std::int64_t>(edge[i].b, 0) * kReach;
+          corner + std::max<std::int64_t>(a[i], 0) * kReach + std::max<std::int64_t>(b[i], 0) * kReach;
       if (high < 0) return Overlap::None;
       const bool inside = low >= 0;
       if (!inside) overlap = Overlap::Part;
-      out.a[i] = inside ? 0 : static_cast<std::int32_t>(edge[i].a);
-      out.b[i] = inside ? 0 : static_cast<std::int32_t>(edge[i].b);
+      out.a[i] = inside ? 0 : static_cast<std::int32_t>(a[i]);
+      out.b[i] = inside ? 0 : static_cast<std::int32_t>(b[i]);
       out.c[i] = inside ? 0 : static_cast<std::int32_t>(corner);
     }
     return overlap;
@@ -140,8 +141,8 @@ struct TriangleEdges {
   // their edges fit 32 bits anywhere in it.
   HWY_INLINE Overlap AcrossBlock(int x_px, int y_px, BlockEdges& out) const {
     for (int i = 0; i < 3; ++i) {
-      out.a[i] = static_cast<std::int32_t>(edge[i].a);
-      out.b[i] = static_cast<std::int32_t>(edge[i].b);
+      out.a[i] = static_cast<std::int32_t>(a[i]);
+      out.b[i] = static_cast<std::int32_t>(b[i]);
       out.c[i] = static_cast<std::int32_t>(Corner(i, x_px, y_px));
     }
     return Overlap::Part;
@@ -150,8 +151,8 @@ struct TriangleEdges {
   // Edge i at a block's corner, divided by 16, rounding down: a and b multiply whole sixteenths of a pixel, that is
   // multiples of 16 fx8.
   HWY_INLINE std::int64_t Corner(int i, int x_px, int y_px) const {
-    return (edge[i].a * (std::int64_t{x_px} << kSubpixelBits) + edge[i].b * (std::int64_t{y_px} << kSubpixelBits) +
-            edge[i].c) >>
+    return (a[i] * (std::int64_t{x_px} << kSubpixelBits) + b[i] * (std::int64_t{y_px} << kSubpixelBits) +
+            c[i]) >>
            4;
   }
 };

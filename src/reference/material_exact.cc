@@ -84,6 +84,7 @@ std::vector<ExactMaterial> MakeExactMaterials(const Scene& scene, const FramePla
     ExactMaterial& to = result[m];
     if (planned.material >= 0) to.material_ = scene.materials[std::size_t(planned.material)];
     to.features_ = planned.frame.features;
+    to.model_ = planned.frame.model;
     to.material_.alpha_mode = planned.frame.alpha_mode;
     to.vertex_colors_ = planned.frame.vertex_colors;
     const Material& from = to.material_;

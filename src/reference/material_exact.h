@@ -24,7 +24,7 @@ struct ShadingInputs {
 
 class ExactMaterial {
  public:
-  bool IsLit() const { return (features_ & kLit) != 0; }
+  ShadingModel Model() const { return model_; }
   AlphaMode Mode() const { return material_.alpha_mode; }
   bool IsDoubleSided() const { return (features_ & kDoubleSided) != 0; }
   double AlphaCutoff() const { return double(material_.alpha_cutoff); }
@@ -48,6 +48,7 @@ class ExactMaterial {
   glm::dvec3 Normal(const SurfacePoint& point) const;
 
   MaterialFeatures features_ = 0;
+  ShadingModel model_ = ShadingModel::MetallicRoughness;
   bool vertex_colors_ = false;
   Material material_;
   Use uses_[kSlotCount];  // by Slot

@@ -13,7 +13,7 @@
 #include "plan/frame_plan.h"
 #include "reference/geometry_exact.h"
 #include "reference/material_exact.h"
-#include "reference/radiance_exact.h"
+#include "reference/models_exact.h"
 #include "scene/camera.h"
 
 namespace facet {
@@ -166,10 +166,7 @@ class ReferenceScene {
     const SurfacePoint point = geometry_.SurfaceAt(hit);
     const ExactMaterial& material = MaterialAt(hit);
     const glm::dvec4 base = material.BaseColor(point);
-    const glm::dvec3 base_color(base);
-    const glm::dvec3 color = material.IsLit()
-                                 ? RadianceTowardEye(material.Inputs(point, base_color), point, *light_, run)
-                                 : base_color + material.Emission(point);
+    const glm::dvec3 color = RadianceByModel(material, glm::dvec3(base), point, *light_, run);
     if (!std::isfinite(color.x + color.y + color.z + base.w)) {
       ++non_finite_;
       return glm::dvec4(0.0);

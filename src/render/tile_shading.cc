@@ -145,15 +145,23 @@ void TileShading::SetUpAttributes(const Batch& batch, const FragmentList& list, 
   set_up_.clear();
   setup_of_.resize(padded);
   setup_of_record_.resize(std::max(setup_of_record_.size(), batch.records.All().size()), {0, 0});
+  const std::uint64_t batch_number = batch_number_;
+  const TriangleRecord* const* records = batch.records.All().data();
   const std::uint32_t* selected = selected_.data();
   const std::int32_t* numbers = list.record.data();
+  SetupOfRecord* setup_of_record = setup_of_record_.data();
   std::int32_t* setup_of = setup_of_.data();
   std::int32_t last_number = kNoRecord, last_setup = 0;
   for (std::size_t i = 0; i < n; ++i) {
     const std::int32_t number = numbers[selected[i]];
     if (number != last_number) {
       last_number = number;
-      last_setup = SetupFor(batch.records, number);
+      SetupOfRecord& known = setup_of_record[number];
+      if (known.batch != batch_number) {
+        known = {batch_number, static_cast<std::int32_t>(set_up_.size())};
+        set_up_.push_back(records[number]);
+      }
+      last_setup = known.setup;
     }
     setup_of[i] = last_setup;
   }
@@ -171,16 +179,6 @@ void TileShading::SetUpAttributes(const Batch& batch, const FragmentList& list, 
   task.count = set_up_.size();
   task.setups = setups_.data();
   SetUpTriangles(task);
-}
-
-// The number of a triangle's setup in this batch.
-std::int32_t TileShading::SetupFor(const TileRecords& records, std::int32_t number) {
-  SetupOfRecord& known = setup_of_record_[std::size_t(number)];
-  if (known.batch != batch_number_) {
-    known = {batch_number_, static_cast<std::int32_t>(set_up_.size())};
-    set_up_.push_back(&records.Record(number));
-  }
-  return known.setup;
 }
 
 // Where they are shaded, in pixels from the anchor; the padding is where the last one is.

@@ -43,7 +43,6 @@ class TileShading {
   void SetUpAttributes(const Batch& batch, const FragmentList& list, std::size_t padded);
   void PlaceFragments(const TileBuffers& tile, const FragmentList& list, std::size_t padded);
   void SelectAll(std::size_t count);
-  std::int32_t SetupFor(const TileRecords& records, std::int32_t number);
 
   // Fragments [begin, end) of a list, which have one material: neighbours mostly do.
   struct MaterialRun {

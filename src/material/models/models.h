@@ -1,5 +1,6 @@
 // The table of shading models. A model is a functor of its own file beside this one; it is compiled for lanes of every
-// instruction set and in double by the shading stage, which loops over FACET_SHADING_MODELS.
+// instruction set and in double by the shading stage, and the reference has its own evaluation of it
+// (reference/models_exact.cc); both loop over FACET_SHADING_MODELS.
 #pragma once
 
 #include <algorithm>

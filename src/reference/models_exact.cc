@@ -1,0 +1,31 @@
+#include "reference/models_exact.h"
+
+#include "material/models/models.h"
+
+namespace facet {
+namespace {
+
+glm::dvec3 MetallicRoughness(const ExactMaterial& material, const glm::dvec3& base_color, const SurfacePoint& point,
+                             const ExactLight& light, const SampleRun& run) {
+  return RadianceTowardEye(material.Inputs(point, base_color), point, light, run);
+}
+
+glm::dvec3 Unlit(const ExactMaterial& material, const glm::dvec3& base_color, const SurfacePoint& point,
+                 const ExactLight&, const SampleRun&) {
+  return base_color + material.Emission(point);
+}
+
+}  // namespace
+
+glm::dvec3 RadianceByModel(const ExactMaterial& material, const glm::dvec3& base_color, const SurfacePoint& point,
+                           const ExactLight& light, const SampleRun& run) {
+  switch (material.Model()) {
+#define FACET_MODEL_CASE(Name) \
+  case ShadingModel::Name: return Name(material, base_color, point, light, run);
+    FACET_SHADING_MODELS(FACET_MODEL_CASE)
+#undef FACET_MODEL_CASE
+  }
+  return glm::dvec3(0.0);
+}
+
+}  // namespace facet
