@@ -19,6 +19,7 @@
 #include "light/environment_source.h"
 #include "light/studio.h"
 #include "plan/frame_plan.h"
+#include "render/film_planes.h"
 #include "render/frame_view.h"
 #include "render/geometry_pass.h"
 #include "render/picture_warnings.h"
@@ -76,6 +77,7 @@ void CheckSettings(const RenderSettings& s) {
   if (s.tile_size != 8 && s.tile_size != 16 && s.tile_size != 32 && s.tile_size != 64) {
     Refuse("tiles of " + std::to_string(s.tile_size) + " pixels", "8, 16, 32 or 64 are accepted");
   }
+  CheckPlanes(s.planes);
   if (std::isnan(s.time)) Refuse("a time that is not a number", "seconds are accepted");
   if (!std::isfinite(s.environment.rotation)) Refuse("an environment rotation that is not finite", "give radians");
   if (!(s.environment.intensity >= 0.0 && s.environment.intensity <= 1e30)) {
@@ -160,6 +162,7 @@ class Renderer::Frames {
                   (output.film != nullptr ? "a film of " : "a picture of ") + std::to_string(settings.width) + " x " +
                       std::to_string(band_rows) + " pixels",
                   {}, "make the picture smaller");
+    ChargePlanes(settings.planes, settings.width, band_rows, budget);
     budget.Charge(HeldBytes(scene_), 1, "the scene", {}, "leave some out");
     const PosedScene& posed = Posed(PoseOf(settings));
     budget.Charge(HeldBytes(posed) + HeldCompleted(), 1, kPosed);
@@ -191,7 +194,7 @@ class Renderer::Frames {
         MakeLightingData(lights, environment, settings.environment.rotation, settings.environment.intensity);
     stats.environment_seconds = stage.Lap();
 
-    TileOutput tiles_to{nullptr, output.develop};
+    TileOutput tiles_to{nullptr, output.develop, {}};
     if (output.film != nullptr) {
       PrepareFilm(settings.width, band_rows, *output.film);
     } else {
@@ -210,6 +213,8 @@ class Renderer::Frames {
         film.height = std::min(end * grid.tile_size, settings.height) - first;
         film.pixels.resize(std::size_t(film.width) * std::size_t(film.height));
         tiles_to.film = film.pixels.data();
+        SizePlanes(plan.planes, film);
+        tiles_to.planes = film.planes;
       }
       RunTiles(input, row, end, tiles_to, stats);
       stats.raster_seconds += stage.Lap();
@@ -342,6 +347,7 @@ void Renderer::RenderBands(const RenderSettings& settings, int max_rows, const B
 
 void Renderer::RenderPicture(const RenderSettings& settings, const DisplaySettings& display, Image& picture,
                              RenderStats* stats, ChannelType type) {
+  if (!settings.planes.empty()) Refuse("planes besides colour of a picture", "Render() gives a film, which has them");
   FrameOutput output;
   output.picture = &picture;
   output.develop = MakeDevelopTask(display, type);

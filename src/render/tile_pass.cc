@@ -16,6 +16,7 @@
 #include "raster/raster_tile.h"
 #include "render/lit_box.h"
 #include "render/view_directions.h"
+#include "resolve/resolve_planes.h"
 #include "resolve/resolve_tile.h"
 #include "shade/shade_fragments.h"
 #include "shade/triangle_setup.h"
@@ -120,6 +121,10 @@ class TileWorker final : public RecordTable {
       compositor_.Run(tile_, opaque_, blended_, *this, background_, pixels_);
     }
     const std::size_t first = std::size_t(output_y0) * std::size_t(in_.grid.width) + std::size_t(tile_.x0);
+    if (!output.planes.empty()) {
+      plane_resolver_.Run({tile_, nothing, records_.data(), in_.view, in_.geometry.drawables.data()}, first,
+                          std::size_t(in_.grid.width), output.planes);
+    }
     if (output.film != nullptr) {
       for (int y = 0; y < tile_.height; ++y) {
         const glm::vec4* row = pixels_.data() + y * size;
@@ -412,6 +417,7 @@ class TileWorker final : public RecordTable {
   TileBuffers tile_, behind_masked_;
   ShadedFragments opaque_, masked_, blended_;
   Compositor compositor_;
+  PlaneResolver plane_resolver_;
   std::vector<const TriangleRecord*> records_;
   std::vector<std::int32_t> numbers_;
   int material_ = -1;         // of the record that came last
