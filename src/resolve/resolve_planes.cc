@@ -1,5 +1,7 @@
 #include "resolve/resolve_planes.h"
 
+#include <limits>
+
 #include "resolve/planes/depth.h"
 #include "resolve/planes/plane_tile.h"
 #include "resolve/planes/triangle.h"
@@ -15,26 +17,28 @@ void Write(PlaneKind kind, const PlaneTile& t) {
   }
 }
 
-// Larger depths are nearer; of equal ones the first sample's stays.
-std::int32_t NearestSample(const TileBuffers& tile, int x, int y) {
-  std::int32_t nearest = kNoSample;
-  float depth = 0.0f;
+// Of a row of a block's pixels, from (x, y) on: larger depths are nearer, and of equal ones the first sample's stays.
+// What nobody covers is infinitely far away. Selections without a branch, which compilers make lanes of.
+void FindNearest(const TileBuffers& tile, int x, int y, std::int32_t* nearest) {
+  float depth[kBlockSize];
+  for (int i = 0; i < kBlockSize; ++i) nearest[i] = kNoSample, depth[i] = -std::numeric_limits<float>::infinity();
   for (int s = 0; s < tile.samples; ++s) {
-    const std::size_t i = tile.Index(x, y, s);
-    if (tile.record[i] == kNoRecord || (nearest != kNoSample && !(tile.depth[i] > depth))) continue;
-    nearest = static_cast<std::int32_t>(i);
-    depth = tile.depth[i];
+    const std::size_t first = tile.Index(x, y, s);
+    const float* here = tile.depth.data() + first;
+    for (int i = 0; i < kBlockSize; ++i) {
+      const bool nearer = here[i] > depth[i];
+      nearest[i] = nearer ? static_cast<std::int32_t>(first) + i : nearest[i];
+      depth[i] = nearer ? here[i] : depth[i];
+    }
   }
-  return nearest;
 }
 
 void FindNearest(const TileBuffers& tile, bool nothing, std::vector<std::int32_t>& nearest) {
   nearest.assign(std::size_t(tile.tile_size) * std::size_t(tile.tile_size), kNoSample);
   if (nothing) return;
   for (int y = 0; y < tile.height; ++y) {
-    for (int x = 0; x < tile.width; ++x) {
-      nearest[std::size_t(y) * std::size_t(tile.tile_size) + std::size_t(x)] = NearestSample(tile, x, y);
-    }
+    for (int x = 0; x < tile.width; x += kBlockSize)
+      FindNearest(tile, x, y, &nearest[std::size_t(y * tile.tile_size + x)]);
   }
 }
 

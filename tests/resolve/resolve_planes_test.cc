@@ -28,7 +28,8 @@ Made RandomTile(int tile_size, int width, int height, int samples, bool perspect
   for (int i = 0; i < tile_size * tile_size * samples; ++i) {
     tile.record.push_back(random() % 3 == 0 ? kNoRecord : std::int32_t(random() % 50));
     const float size = float(1 + random() % 4) * 0.25f;
-    tile.depth.push_back(perspective ? size : -size);
+    const float depth = perspective ? size : -size;
+    tile.depth.push_back(tile.record.back() == kNoRecord ? -std::numeric_limits<float>::infinity() : depth);
   }
   made.records.resize(50);
   for (std::uint32_t i = 0; i < 50; ++i) made.records[i].primitive = 1000 - i;
