@@ -35,7 +35,7 @@ struct ExplainedLights {
 // What one feature takes, by leaving it out and taking the difference. All may be negative: a surface that does not
 // blend hides what is behind it.
 struct FeatureCost {
-  std::string feature;  // a word of --without, or "multisampling", "background", "anisotropy"
+  std::string feature;  // a word of --without, or "multisampling", "background", "planes", "anisotropy"
   std::string option;   // that leaves it out: "--without skins"
   int pairs = 0;        // of steady frames, with it and without it by turns
   // Seconds of a steady frame: median of the pairs' differences, and their quartiles. A cost whose quartiles have
@@ -52,9 +52,10 @@ struct Explanation {
   std::vector<ExplainedTexture> textures;
   ExplainedLights lights;
   bool environment_light = false, environment_background = false;
-  std::string environment;  // "studio", "WxH", or empty
-  RenderStats first;        // of the first frame; `left_out` has what the frame does without and why
-  RenderStats steady;       // of a frame like the one before
+  std::vector<PlaneKind> planes;  // of the film, besides colour
+  std::string environment;        // "studio", "WxH", or empty
+  RenderStats first;              // of the first frame; `left_out` has what the frame does without and why
+  RenderStats steady;             // of a frame like the one before
   int frames = 0;
   double steady_seconds = 0;  // median of as many
   std::vector<FeatureCost> costs;

@@ -1,6 +1,7 @@
-// The linear picture that rendering makes, and its way to the display.
+// The linear picture that rendering makes, with the planes that it may have besides, and its way to the display.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
@@ -8,6 +9,7 @@
 
 #include "facet/digest.h"
 #include "facet/image.h"
+#include "facet/planes.h"
 
 namespace facet {
 
@@ -16,10 +18,16 @@ struct Film {
   int width = 0;
   int height = 0;
   std::vector<glm::vec4> pixels;
+  std::vector<Plane> planes = {};  // those of RenderSettings::planes, in its order
 };
 
 // Of the line "facet film WIDTH HEIGHT\n" and the pixels: R, G, B, A as little-endian IEEE 754 floats, top row first.
+// Colour alone: planes besides it do not change it.
 Digest HashFilm(const Film& film);
+
+// Of the line "facet plane NAME WIDTH HEIGHT CHANNELS TYPE\n", TYPE being f32 or u32, and the bytes of
+// film.planes[plane].
+Digest HashPlane(const Film& film, std::size_t plane);
 
 enum class ToneMap : std::uint8_t { None, Reinhard, Aces, AgX, Neutral };
 

@@ -67,8 +67,8 @@ Film Render(const Scene& scene, const RenderSettings& settings, RenderStats* sta
 using BandReceiver = std::function<void(const Film& band, int first_row)>;
 
 // Render() without the whole film in memory: `receive` is called for bands that together, from top to bottom, are its
-// film, bit for bit. A band has the settings' width and at most `max_rows` rows, rounded down to whole tiles, but one
-// row of tiles at least. Throws what Render() and `receive` throw.
+// film, bit for bit, each with its rows of the planes. A band has the settings' width and at most `max_rows` rows,
+// rounded down to whole tiles, but one row of tiles at least. Throws what Render() and `receive` throw.
 void RenderBands(const Scene& scene, const RenderSettings& settings, int max_rows, const BandReceiver& receive,
                  RenderStats* stats = nullptr);
 
@@ -86,9 +86,9 @@ class Renderer {
   // Replaces `film`, using its memory. Throws what Render() does; the film is lost then. Not from two threads at once.
   void Render(const RenderSettings& settings, Film& film, RenderStats* stats = nullptr);
 
-  // Replaces `picture` by Develop() of the film that Render() would make, using its memory: each tile is developed while
-  // it is in the nearest cache, and there is no film, which takes 16 bytes a pixel. Throws what both do; the picture is
-  // lost then.
+  // Replaces `picture` by Develop() of the film that Render() would make, using its memory: each tile is developed
+  // while it is in the nearest cache, and there is no film, which takes 16 bytes a pixel. Throws what both do, and
+  // Error(InvalidUsage) where settings.planes asks for what a picture does not have; the picture is lost then.
   void RenderPicture(const RenderSettings& settings, const DisplaySettings& display, Image& picture,
                      RenderStats* stats = nullptr, ChannelType type = ChannelType::U8);
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "facet/image.h"
+#include "facet/planes.h"
 #include "facet/scene.h"
 
 namespace facet {
@@ -137,6 +138,7 @@ struct RenderSettings {
   CameraChoice camera = AutoCamera{};
   EnvironmentSettings environment;
   Background background = Background::Transparent;
+  std::vector<PlaneKind> planes;  // that the film has besides colour, each once; colour is the same with and without
   // Left out although the scene has them: the picture is the one of the same scene built without them, bit for bit.
   FeatureSet without;
   // False: the frame does what the scene does not need as well, as far as that changes no bit of the picture, to show

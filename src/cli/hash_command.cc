@@ -1,5 +1,6 @@
 #include "cli/hash_command.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -15,9 +16,14 @@
 namespace facet::cli {
 namespace {
 
-using Line = std::pair<const char*, std::optional<Digest>>;
+using Line = std::pair<std::string, std::optional<Digest>>;
 
-std::vector<Line> Digests(const HashOptions& options) {
+struct Lines {
+  std::vector<Line> planes;  // of the film, besides colour
+  std::vector<Line> others;  // the first is the film's
+};
+
+Lines Digests(const HashOptions& options) {
   const RenderInputs inputs = LoadInputs(options.input, options.request, options.load);
   RenderStats stats;
   const Film film = Render(inputs.loaded.scene, inputs.settings, &stats);
@@ -25,30 +31,39 @@ std::vector<Line> Digests(const HashOptions& options) {
   warnings.insert(warnings.end(), stats.warnings.begin(), stats.warnings.end());
   PrintWarnings(warnings, options.strict, options.input.string());
   const SceneDigests scene = HashScene(inputs.loaded.scene);
-  return {{"film", HashFilm(film)},
-          {"pixels", HashImage(Develop(film, options.request.display, options.request.type))},
-          {"description", scene.description},
-          {"geometry", scene.geometry},
-          {"textures", scene.textures},
-          {"environment", HashEnvironment(inputs.settings.environment)}};
+  Lines lines;
+  for (std::size_t i = 0; i < film.planes.size(); ++i) {
+    lines.planes.emplace_back(InfoOf(film.planes[i].kind).name, HashPlane(film, i));
+  }
+  lines.others = {{"film", HashFilm(film)},
+                  {"pixels", HashImage(Develop(film, options.request.display, options.request.type))},
+                  {"description", scene.description},
+                  {"geometry", scene.geometry},
+                  {"textures", scene.textures},
+                  {"environment", HashEnvironment(inputs.settings.environment)}};
+  return lines;
 }
 
-std::string Text(const std::vector<Line>& lines) {
+// The film's planes follow its colour.
+std::string Text(Lines lines) {
+  lines.others.insert(lines.others.begin() + 1, lines.planes.begin(), lines.planes.end());
   std::string text;
-  for (const auto& [name, digest] : lines) {
-    std::string label = name;
-    label.resize(13, ' ');
+  for (const auto& [name, digest] : lines.others) {
+    std::string label = name + " ";
+    label.resize(std::max(label.size(), std::size_t{13}), ' ');
     text += label + (digest ? ToHex(*digest) : "none") + "\n";
   }
   return text;
 }
 
-std::string Json(const std::vector<Line>& lines) {
+// Planes stand apart: their names are their own.
+std::string Json(const Lines& lines) {
   nlohmann::ordered_json json;
   json["facet"] = Version();
-  for (const auto& [name, digest] : lines) {
+  for (const auto& [name, digest] : lines.others) {
     json[name] = digest ? nlohmann::ordered_json(ToHex(*digest)) : nlohmann::ordered_json(nullptr);
   }
+  for (const auto& [name, digest] : lines.planes) json["planes"][name] = ToHex(*digest);
   return json.dump(2) + "\n";
 }
 
@@ -57,7 +72,7 @@ std::string Json(const std::vector<Line>& lines) {
 void RunHash(const HashOptions& options) {
   MemoryBudget budget(options.load.memory_limit);  // of what is neither loading nor rendering
   const MemoryBudget::Scope scope(budget);
-  std::vector<Line> lines;
+  Lines lines;
   RunWithThreads(options.request.settings.threads, [&] { lines = Digests(options); });
   PrintOutput(options.json ? Json(lines) : Text(lines));
 }

@@ -115,6 +115,15 @@ void AddRequest(CLI::App& app, RenderRequest& request, LoadOptions& load, bool& 
   AddMemoryLimit(app, "Quality and speed", load.memory_limit);
 }
 
+// Planes of the film besides colour, for commands that say something of it.
+void AddPlanes(CLI::App& app, RenderRequest& request) {
+  std::string names;
+  for (const PlaneInfo& info : kPlanes) names += (names.empty() ? "" : ", ") + std::string(info.name);
+  Add(app, "Output", "--planes", "LIST",
+      "Planes of the film besides colour, with commas\nbetween them: " + names + " [none]",
+      [&](const std::string& text) { request.settings.planes = ParsePlanes("--planes", text); });
+}
+
 void AddBound(CLI::App& app, RenderOptions& options) {
   const std::string group = "Chosen by error or time";
   Add(app, group, "--max-error", "X", "Take the fastest approximations whose relative\nerror is at most X, 1e-6 to 10",
@@ -211,6 +220,7 @@ CLI::App& AddExplain(CLI::App& program, ExplainOptions& options) {
   CLI::App& app = page.app();
   AddScene(app, options.input);
   AddRequest(app, options.request, options.load, options.strict);
+  AddPlanes(app, options.request);
   AddFlag(app, "Messages", "--json", "As JSON with stable keys", options.json);
   page.End("Messages");
   return app;
@@ -222,6 +232,7 @@ CLI::App& AddHash(CLI::App& program, HashOptions& options) {
   CLI::App& app = page.app();
   AddScene(app, options.input);
   AddRequest(app, options.request, options.load, options.strict);
+  AddPlanes(app, options.request);
   AddFlag(app, "Messages", "--json", "As JSON with stable keys", options.json);
   page.End("Messages");
   return app;

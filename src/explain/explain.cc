@@ -118,6 +118,7 @@ std::vector<Ablation> Ablations(const RenderSettings& settings, const FramePlan&
     add(word, "--without " + already + word).without.Add(known.feature);
   }
   if (plan.environment_background) add("background", "--background transparent").background = Background::Transparent;
+  if (!plan.planes.empty()) add("planes", "--planes none").planes.clear();
   if (settings.samples > 1) add("multisampling", "--samples 1").samples = 1;
   if (settings.max_anisotropy > 1 && !plan.textures.empty()) {
     add("anisotropy", "--max-anisotropy 1").max_anisotropy = 1;
@@ -244,6 +245,7 @@ Explanation Explain(const Scene& scene, const RenderSettings& asked) {
     if (plan.punctual_lights) out.lights = CountLights(posed);
     out.environment_light = plan.environment_light;
     out.environment_background = plan.environment_background;
+    out.planes = plan.planes;
     out.environment = EnvironmentName(settings.environment);
     // A camera that frames the bounds would stand elsewhere without skins.
     const ResolvedCamera camera = ResolveCamera(settings.camera, scene, posed, settings.width, settings.height);

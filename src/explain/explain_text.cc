@@ -131,6 +131,16 @@ std::string LightText(const Explanation& e) {
   return Table(rows, "ll");
 }
 
+std::string PlanesText(const Explanation& e) {
+  std::vector<std::vector<std::string>> rows = {{"Planes besides colour", "bytes", "what"}};
+  for (const PlaneKind plane : e.planes) {
+    const PlaneInfo& info = InfoOf(plane);
+    const std::size_t pixels = std::size_t(e.width) * std::size_t(e.height);
+    rows.push_back({std::string(info.name), Bytes(double(pixels * info.PixelBytes())), std::string(info.meaning)});
+  }
+  return Table(rows, "lrl");
+}
+
 // "WHAT: WHY" in two.
 std::pair<std::string, std::string> Split(const std::string& line) {
   const std::size_t colon = line.find(": ");
@@ -206,6 +216,12 @@ Json MaterialsJson(const Explanation& e) {
   return list;
 }
 
+Json PlanesJson(const Explanation& e) {
+  Json list = Json::array();
+  for (const PlaneKind plane : e.planes) list.push_back(InfoOf(plane).name);
+  return list;
+}
+
 Json LeftOutJson(const Explanation& e) {
   Json list = Json::array();
   for (const std::string& line : e.first.left_out) {
@@ -238,7 +254,8 @@ std::string ToText(const Explanation& e, const std::string& scene) {
          std::to_string(e.samples) + (e.samples == 1 ? " sample" : " samples") + " a pixel, " +
          std::to_string(s.threads) + (s.threads == 1 ? " thread, " : " threads, ") + s.target + "\n\n" +
          GeometryText(s) + "\n" + MaterialsText(e) + "\n" + (e.textures.empty() ? "" : TexturesText(e) + "\n") +
-         LightText(e) + "\n" + LeftOutText(e) + "\n" + FirstFrameText(e) + "\n" + CostsText(e);
+         LightText(e) + "\n" + (e.planes.empty() ? "" : PlanesText(e) + "\n") + LeftOutText(e) + "\n" +
+         FirstFrameText(e) + "\n" + CostsText(e);
 }
 
 std::string ToJson(const Explanation& e, const std::string& scene) {
@@ -268,6 +285,7 @@ std::string ToJson(const Explanation& e, const std::string& scene) {
         {"size", s.environment_size},
         {"bytes", s.environment_bytes}}},
       {"punctual_lights", {{"directional", e.lights.directional}, {"point", e.lights.point}, {"spot", e.lights.spot}}},
+      {"planes", PlanesJson(e)},
       {"left_out", LeftOutJson(e)},
       {"first_frame",
        {{"pose_seconds", s.pose_seconds},

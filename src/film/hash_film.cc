@@ -30,4 +30,31 @@ Digest HashFilm(const Film& film) {
   return hash.Finish();
 }
 
+Sha256 BeginPlaneHash(const PlaneInfo& plane, int width, int height) {
+  Sha256 hash;
+  hash.Add("facet plane " + std::string(plane.name) + " " + std::to_string(width) + " " + std::to_string(height) + " " +
+           std::to_string(plane.channels) + " " + std::string(NameOf(plane.type)) + "\n");
+  return hash;
+}
+
+Digest HashPlane(const Film& film, std::size_t plane) {
+  CheckFilm(film);
+  if (plane >= film.planes.size()) {
+    throw Error(ErrorCode::InvalidUsage,
+                "there is no plane " + std::to_string(plane) + ", it has " + std::to_string(film.planes.size()), "film",
+                "ask for planes with RenderSettings::planes");
+  }
+  const auto& [kind, bytes] = film.planes[plane];
+  const PlaneInfo& info = InfoOf(kind);
+  if (bytes.size() != film.pixels.size() * info.PixelBytes()) {
+    throw Error(ErrorCode::InvalidUsage,
+                "its plane " + std::string(info.name) + " has " + std::to_string(bytes.size()) +
+                    " bytes and should have " + std::to_string(film.pixels.size() * info.PixelBytes()),
+                "film");
+  }
+  Sha256 hash = BeginPlaneHash(info, film.width, film.height);
+  hash.Add(bytes);
+  return hash.Finish();
+}
+
 }  // namespace facet

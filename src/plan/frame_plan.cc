@@ -219,6 +219,8 @@ FramePlan MakeFramePlan(const Scene& scene, const PosedScene& posed, const Rende
          !HasMorphTargets(scene)            ? "the scene has none"
          : asked_out(Feature::MorphTargets) ? kOnRequest
                                             : "none of what is drawn has a weight");
+  plan.planes = settings.planes;
+  if (plan.planes.empty()) plan.left_out.emplace_back("planes besides colour: not asked for");
   if (settings.samples == 1) plan.left_out.emplace_back("multisampling: one sample a pixel");
   if (!settings.omit_unused) UseEverything(settings, plan);
   return plan;

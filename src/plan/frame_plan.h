@@ -48,6 +48,7 @@ struct FramePlan {
   bool punctual_lights = false;
   bool alpha_test = false;
   bool blending = false;
+  std::vector<PlaneKind> planes;  // of the film, besides colour
   bool dark_light = false;     // a light of no intensity shines as well
   bool every_texture = false;  // decoded even if no visible material reads it
   FeatureSet uses;             // of the scene; not what is only done to show that it changes nothing

@@ -7,6 +7,7 @@
 #include "facet/error.h"
 #include "facet/image.h"
 #include "frame/constants.h"
+#include "render/film_planes.h"
 
 namespace facet {
 namespace {
@@ -42,6 +43,7 @@ void CheckSettings(const RenderSettings& s) {
   if (s.tile_size != 8 && s.tile_size != 16 && s.tile_size != 32 && s.tile_size != 64) {
     Refuse("tiles of " + std::to_string(s.tile_size) + " pixels", "8, 16, 32 or 64 are accepted");
   }
+  CheckPlanes(s.planes);
   if (std::isnan(s.time)) Refuse("a time that is not a number", "seconds are accepted");
   if (!std::isfinite(s.environment.rotation)) Refuse("an environment rotation that is not finite", "give radians");
   if (!(s.environment.intensity >= 0.0 && s.environment.intensity <= 1e30)) {

@@ -13,6 +13,7 @@
 #include "film/develop_pixels.h"
 #include "plan/frame_plan.h"
 #include "render/check_settings.h"
+#include "render/film_planes.h"
 #include "render/frame_environment.h"
 #include "render/frame_pose.h"
 #include "render/frame_view.h"
@@ -86,6 +87,7 @@ class Renderer::Frames {
     const MemoryBudget::Scope scope(budget);
     const int band_rows = std::min(band_tiles * grid.tile_size, settings.height);
     output.Charge(settings.width, band_rows, budget);
+    ChargePlanes(settings.planes, settings.width, band_rows, budget);
     budget.Charge(HeldBytes(scene_), 1, "the scene", {}, "leave some out");
     const PosedScene& posed = pose_.Pose(PoseOf(settings));
     const FramePlan plan = MakeFramePlan(scene_, posed, settings);
@@ -122,7 +124,7 @@ class Renderer::Frames {
 
     const TiledView tiled{view, geometry_, attributes, materials, grid, settings.samples};
     const TilePassInput input{tiled, lighting, /*cull_lights=*/!settings.HasShaders(), background, settings.progress};
-    TileOutput pixels{nullptr, output.develop};
+    TileOutput pixels{nullptr, output.develop, {}};
     if (output.film != nullptr) {
       PrepareFilm(settings.width, band_rows, *output.film);
     } else {
@@ -138,6 +140,8 @@ class Renderer::Frames {
         film.height = std::min(end * grid.tile_size, settings.height) - first;
         film.pixels.resize(std::size_t(film.width) * std::size_t(film.height));
         pixels.film = film.pixels.data();
+        SizePlanes(plan.planes, film);
+        pixels.planes = film.planes;
       }
       RunTiles(input, row, end, pixels, stats);
       stats.raster_seconds += stage.Lap();
@@ -178,6 +182,10 @@ void Renderer::RenderBands(const RenderSettings& settings, int max_rows, const B
 
 void Renderer::RenderPicture(const RenderSettings& settings, const DisplaySettings& display, Image& picture,
                              RenderStats* stats, ChannelType type) {
+  if (!settings.planes.empty()) {
+    throw Error(ErrorCode::InvalidUsage, "planes besides colour of a picture", "render settings",
+                "Render() gives a film, which has them");
+  }
   FrameOutput output;
   output.picture = &picture;
   output.develop = MakeDevelopTask(display, type);

@@ -11,6 +11,7 @@
 #include "render/tile_lights.h"
 #include "render/tile_shading.h"
 #include "render/tile_visibility.h"
+#include "resolve/resolve_planes.h"
 #include "resolve/resolve_tile.h"
 
 namespace facet {
@@ -35,7 +36,8 @@ class TileWorker {
     const int column = static_cast<int>(t) % grid.columns, row = static_cast<int>(t) / grid.columns;
     opaque_.list.Clear();
     blended_.list.Clear();
-    if (visibility_.Begin(column, first_row + row, t)) {
+    const bool touched = visibility_.Begin(column, first_row + row, t);
+    if (touched) {
       visibility_.Draw();
       VisibleFragments(visibility_.Buffers(), opaque_.list);
       Shade(opaque_, counts);
@@ -46,7 +48,14 @@ class TileWorker {
     }
     in_.background.CompositeUnder(visibility_.Buffers(), pixels_);
     if (visibility_.HasBlended()) Blend(counts);
-    Put(output, std::size_t(row * grid.tile_size) * std::size_t(grid.width) + std::size_t(column * grid.tile_size));
+    const std::size_t first =
+        std::size_t(row * grid.tile_size) * std::size_t(grid.width) + std::size_t(column * grid.tile_size);
+    Put(output, first);
+    if (!output.planes.empty()) {
+      const VisibleTile seen{visibility_.Buffers(), !touched, visibility_.Records().All().data(), in_.view.view,
+                             in_.view.geometry.drawables.data()};
+      planes_.Run(seen, first, std::size_t(grid.width), output.planes);
+    }
     CountCovered(counts);
   }
 
@@ -101,6 +110,7 @@ class TileWorker {
   TileLights lights_;
   ShadedFragments opaque_, blended_;
   Compositor compositor_;
+  PlaneResolver planes_;
   TilePixels background_, pixels_;
 };
 

@@ -3,7 +3,9 @@
 
 #include <functional>
 #include <glm/glm.hpp>
+#include <span>
 
+#include "facet/planes.h"
 #include "facet/render.h"
 #include "film/develop_pixels.h"
 #include "light/lighting.h"
@@ -25,6 +27,7 @@ struct TilePassInput {
 struct TileOutput {
   glm::vec4* film = nullptr;  // null: `develop` has all but the pixels and their number
   DevelopTask develop;
+  std::span<Plane> planes;  // besides colour
 };
 
 // Draws the rows of tiles [first_row, end_row) of the grid, which the geometry has lists for. The output, which is

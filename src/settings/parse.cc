@@ -219,6 +219,29 @@ int ParseChoice(std::string_view option, std::string_view text, const std::vecto
   throw Error(ErrorCode::InvalidUsage, Quoted(text) + " is no choice", std::string(option), "give " + list);
 }
 
+std::vector<int> ParseChoices(std::string_view option, std::string_view text,
+                              const std::vector<std::string_view>& choices) {
+  std::vector<int> chosen;
+  if (text == "none") return chosen;
+  for (const std::string_view word : Split(text, ',')) chosen.push_back(ParseChoice(option, word, choices));
+  return chosen;
+}
+
+std::vector<PlaneKind> ParsePlanes(std::string_view option, std::string_view text) {
+  std::vector<std::string_view> names;
+  for (const PlaneInfo& info : kPlanes) names.push_back(info.name);
+  std::vector<PlaneKind> planes;
+  for (const int i : ParseChoices(option, text, names)) {
+    const PlaneInfo& info = kPlanes[i];
+    if (std::find(planes.begin(), planes.end(), info.kind) != planes.end()) {
+      Refuse(option, text, "a list of planes: " + std::string(info.name) + " stands in it twice",
+             "name each plane once");
+    }
+    planes.push_back(info.kind);
+  }
+  return planes;
+}
+
 int Choose(std::string_view option, std::string_view kind, const std::string& text,
            const std::vector<std::string>& names) {
   const std::string word(kind);

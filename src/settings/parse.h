@@ -10,6 +10,8 @@
 #include <string_view>
 #include <vector>
 
+#include "facet/planes.h"
+
 namespace facet {
 
 // An inclusive range.
@@ -57,6 +59,13 @@ glm::vec3 ParseColor(std::string_view option, std::string_view text);
 
 // One of `choices`, by index; letter case counts.
 int ParseChoice(std::string_view option, std::string_view text, const std::vector<std::string_view>& choices);
+
+// Some of `choices` with commas between them, by index; "none" is none of them.
+std::vector<int> ParseChoices(std::string_view option, std::string_view text,
+                              const std::vector<std::string_view>& choices);
+
+// Names of planes with commas between them, each once; "none" is none of them.
+std::vector<PlaneKind> ParsePlanes(std::string_view option, std::string_view text);
 
 // The index of what `text` picks out of `names`: a number of digits only is always an index, anything else a name.
 // `kind` is the singular word for messages, such as "camera"; the message lists what there is.

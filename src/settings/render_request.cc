@@ -46,12 +46,7 @@ FeatureSet ParseFeatures(Text where, Text text) {
   std::vector<Text> words;
   for (const FeatureWord& known : kFeatureWords) words.push_back(known.word);
   FeatureSet features;
-  if (text == "none") return features;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    features.Add(kFeatureWords[std::size_t(ParseChoice(where, text.substr(begin, end - begin), words))].feature);
-    begin = end + 1;
-  }
+  for (const int i : ParseChoices(where, text, words)) features.Add(kFeatureWords[std::size_t(i)].feature);
   return features;
 }
 

@@ -77,6 +77,30 @@ TEST_F(FacetHash, EachOptionChangesItsOwn) {
   EXPECT_TRUE(Hash({"--environment", "none"})["environment"].is_null());
 }
 
+TEST_F(FacetHash, PlanesThatAreAskedForFollowTheFilm) {
+  const Outcome plain = RunFacet({"hash", in_, "--size", "32x32"});
+  const Outcome run = RunFacet({"hash", in_, "--size", "32x32", "--planes", "triangle,depth"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const std::string digest = "[0-9a-f]{64}\n";
+  std::smatch planes;
+  ASSERT_TRUE(std::regex_search(run.out, planes, std::regex("triangle     " + digest + "depth        " + digest)));
+  EXPECT_EQ(planes.prefix().str() + planes.suffix().str(), plain.out);
+  EXPECT_EQ(planes.prefix().str().rfind("film ", 0), 0u);
+
+  const nlohmann::json json = Hash({"--planes", "depth"}), eight = Hash({"--planes", "depth", "--samples", "8"});
+  EXPECT_EQ(json["planes"].size(), 1u);
+  EXPECT_NE(run.out.find(json["planes"]["depth"].get<std::string>()), std::string::npos);
+  EXPECT_NE(json["planes"]["depth"], eight["planes"]["depth"]);
+  EXPECT_FALSE(Hash({}).contains("planes"));
+
+  for (const char* wrong : {"dpth", "depth,depth", "depth,"}) {
+    const Outcome refused = RunFacet({"hash", in_, "--planes", wrong});
+    EXPECT_EQ(refused.exit_code, 2) << wrong;
+    EXPECT_TRUE(IsOneErrorLine(refused.err)) << refused.err;
+  }
+  EXPECT_NE(RunFacet({"hash", in_, "--planes", "dpth"}).err.find("depth or triangle"), std::string::npos);
+}
+
 TEST_F(FacetHash, TellsWhatIsWrongAsRenderDoes) {
   EXPECT_EQ(RunFacet({"hash", folder_ / "nothing.glb"}).exit_code, 3);
   EXPECT_EQ(RunFacet({"hash", in_, "--camera", "Front", "--fov", "30"}).exit_code, 2);

@@ -1,5 +1,6 @@
-// Prints the SHA-256 of the linear film of scenes under chosen settings, and of what was decoded for it: one line
-// "SCENE <tab> WHAT <tab> HASH" each. prove.py runs it in every configuration and compares.
+// Prints the SHA-256 of the linear film of scenes under chosen settings, of each of its planes besides colour, and of
+// what was decoded for it: one line "SCENE <tab> WHAT <tab> HASH" each, WHAT being TARGET:THREADS:TILE for a film and
+// TARGET:THREADS:TILE/NAME for a plane. prove.py runs it in every configuration and compares.
 //   film_hashes [--hostile] [--size N] [--run TARGET:THREADS:TILE]... [--environment FILE] SCENE... [--environment ...]
 //   film_hashes --targets
 // --environment holds for the scenes after it and is shown behind them. --hostile: the floating-point state that a
@@ -90,6 +91,7 @@ void HashOne(const std::string& name, const std::string& path, const std::string
 
   RenderSettings settings;
   settings.width = settings.height = size;
+  for (const PlaneInfo& plane : kPlanes) settings.planes.push_back(plane.kind);
   if (!scene.animations.empty()) {
     settings.animation = 0;
     settings.time = 0.4;
@@ -111,7 +113,11 @@ void HashOne(const std::string& name, const std::string& path, const std::string
     settings.tile_size = run.tile_size;
     const std::string what =
         std::string(TargetName(run.target)) + ":" + std::to_string(run.threads) + ":" + std::to_string(run.tile_size);
-    Print(name, what, ToHex(HashFilm(Render(scene, settings))));
+    const Film film = Render(scene, settings);
+    Print(name, what, ToHex(HashFilm(film)));
+    for (std::size_t i = 0; i < film.planes.size(); ++i) {
+      Print(name, what + "/" + std::string(InfoOf(film.planes[i].kind).name), ToHex(HashPlane(film, i)));
+    }
   }
 }
 

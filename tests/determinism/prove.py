@@ -3,8 +3,9 @@
 
 Builds what it needs in build/PRESET, renders the bundled scenes, small files for every decoder (made for the purpose in
 build/decoder-files) and the corpus (FACET_CORPUS, else ../shared/corpus, where it is there), and prints the SHA-256 of
-each scene's linear film. Exit code 0: each scene has one hash, and so has what was decoded for it; 1: some scene has
-several, and the configurations that differ are named; 2: something could not be built or run.
+each scene's linear film. Exit code 0: each scene has one hash, and so have its planes besides colour and what was
+decoded for it; 1: some scene has several, and the configurations that differ are named; 2: something could not be built
+or run.
 
   prove.py                                everything
   prove.py --quick                        of the corpus only what is compressed; without the debug and scalar builds
@@ -220,8 +221,9 @@ def main():
             elif what in INPUTS:
                 seen[scene, what][value].append(c.name)
             else:
-                films[c.name] += 1
-                seen[scene, "film"][value].append(f"{c.name} {what}")
+                run_of_it, _, plane = what.partition("/")
+                films[c.name] += not plane
+                seen[scene, plane or "film"][value].append(f"{c.name} {run_of_it}")
         for scene in errors.keys() - skipped[c.name]:
             seen[scene, "error"][errors[scene]].append(c.name)
         print(f"{c.name}: {films[c.name]} films in {time.monotonic() - built:.0f} s (built in {built - start:.0f} s)",

@@ -158,6 +158,24 @@ TEST(Explain, WhatIsLeftOutOnRequestIsSaid) {
   EXPECT_NE(ToText(e, "s.glb").find("on request"), std::string::npos);
 }
 
+TEST(Explain, NamesThePlanesBesidesColour) {
+  Scene scene;
+  Add(scene, Rectangle(-1, -1, 1, 1), AddMaterial(scene, Unlit(glm::vec4(1.0f))));
+  RenderSettings settings = Settings(16, 16, 1, Perspective(1.0, {0, 0, 3}));
+  const std::string what = "planes besides colour";
+  const auto left_out = [&](const Explanation& e) { return ToText(e, "s").find(what) != std::string::npos; };
+  EXPECT_TRUE(left_out(Explain(scene, settings)));
+  settings.planes = {PlaneKind::Triangle, PlaneKind::Depth};
+  const Explanation e = Explain(scene, settings);
+  EXPECT_FALSE(left_out(e));
+  EXPECT_EQ(e.planes, settings.planes);
+  EXPECT_EQ(Costed(e), std::set<std::string>{"planes"});
+  EXPECT_EQ(nlohmann::json::parse(ToJson(e, "s"))["planes"], (nlohmann::json{"triangle", "depth"}));
+  for (const char* part : {"Planes besides colour", "1 KiB", "camera's axis"}) {
+    EXPECT_NE(ToText(e, "s").find(part), std::string::npos) << part;
+  }
+}
+
 TEST(Explain, TextAndJsonHaveTheSameNumbers) {
   Explanation e;
   e.width = 640, e.height = 480, e.samples = 4;

@@ -18,6 +18,12 @@ TEST(HashBands, AreTheDigestOfTheWhole) {
   hash.Add(std::as_bytes(std::span(film.pixels).subspan(15)));
   EXPECT_EQ(hash.Finish(), HashFilm(film));
 
+  film.planes.push_back({PlaneKind::Triangle, std::vector<std::byte>(35 * 4, std::byte(3))});
+  Sha256 plane = BeginPlaneHash(InfoOf(PlaneKind::Triangle), 5, 7);
+  plane.Add(std::span(film.planes[0].bytes).first(60));
+  plane.Add(std::span(film.planes[0].bytes).subspan(60));
+  EXPECT_EQ(plane.Finish(), HashPlane(film, 0));
+
   for (const ChannelType type : {ChannelType::U8, ChannelType::U16, ChannelType::F32}) {
     Image image = Develop(film, {}, type);
     Image form = image;

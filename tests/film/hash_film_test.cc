@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "base/sha256.h"
+#include "facet/error.h"
 #include "facet/film.h"
 
 namespace facet {
@@ -34,6 +35,25 @@ TEST(HashFilm, SeesOneBitAndTheShape) {
   Film column = TwoPixels();
   std::swap(column.width, column.height);
   EXPECT_NE(HashFilm(column), digest);
+}
+
+TEST(HashPlane, IsTheDigestOfTheDocumentedBytes) {
+  Film film = TwoPixels();
+  const Digest colour = HashFilm(film);
+  const std::string_view numbers("\x00\x00\x80\x3f\x00\x00\x80\x7f", 8);
+  const auto bytes = std::as_bytes(std::span(numbers));
+  film.planes = {{PlaneKind::Depth, {bytes.begin(), bytes.end()}}, {PlaneKind::Triangle, {bytes.begin(), bytes.end()}}};
+  Sha256 depth, triangle;
+  depth.Add("facet plane depth 2 1 1 f32\n");
+  depth.Add(bytes);
+  triangle.Add("facet plane triangle 2 1 1 u32\n");
+  triangle.Add(bytes);
+  EXPECT_EQ(HashPlane(film, 0), depth.Finish());
+  EXPECT_EQ(HashPlane(film, 1), triangle.Finish());
+  EXPECT_EQ(HashFilm(film), colour);
+  EXPECT_THROW(HashPlane(film, 2), Error);
+  film.planes[1].bytes.pop_back();
+  EXPECT_THROW(HashPlane(film, 1), Error);
 }
 
 TEST(HashImage, SeesThePixelsAndTheirKind) {

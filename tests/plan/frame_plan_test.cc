@@ -46,7 +46,7 @@ TEST(FramePlan, WhatIsLeftOutHasAReason) {
   EXPECT_FALSE(LeftOut(plan, "environment light"));
   for (const char* what : {"environment background", "punctual lights", "alpha test", "blending", "tangents",
                            "vertex colours", "base colour textures", "metallic-roughness textures", "normal textures",
-                           "occlusion textures", "emission", "skins", "morph targets"}) {
+                           "occlusion textures", "emission", "skins", "morph targets", "planes besides colour"}) {
     EXPECT_TRUE(LeftOut(plan, what)) << what;
   }
 }

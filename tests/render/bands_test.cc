@@ -30,6 +30,13 @@ Film Joined(const Scene& scene, const RenderSettings& settings, int max_rows, Re
         EXPECT_EQ(band.pixels.size(), std::size_t(band.width) * std::size_t(band.height));
         whole.pixels.insert(whole.pixels.end(), band.pixels.begin(), band.pixels.end());
         whole.height += band.height;
+        whole.planes.resize(band.planes.size());
+        for (std::size_t i = 0; i < band.planes.size(); ++i) {
+          const auto& [kind, bytes] = band.planes[i];
+          EXPECT_EQ(bytes.size(), band.pixels.size() * InfoOf(kind).PixelBytes());
+          whole.planes[i].kind = kind;
+          whole.planes[i].bytes.insert(whole.planes[i].bytes.end(), bytes.begin(), bytes.end());
+        }
       },
       stats);
   return whole;
@@ -43,6 +50,7 @@ TEST(Bands, AreThePictureBitForBit) {
       settings.width = 83;
       settings.height = 150;
       settings.samples = samples;
+      if (samples == 4) settings.planes = {PlaneKind::Triangle, PlaneKind::Depth};
       settings.background = samples == 1 ? Background::Transparent : Background::Environment;
       RenderStats whole_stats;
       const Film whole = Render(loaded.scene, settings, &whole_stats);

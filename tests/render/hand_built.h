@@ -1,6 +1,7 @@
 // Scenes made by hand, for the tests of what the renderer draws. Public headers only.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <functional>
@@ -25,7 +26,9 @@ inline std::vector<Target> AvailableTargets() {
 
 inline bool SameBytes(const Film& a, const Film& b) {
   return a.width == b.width && a.height == b.height && a.pixels.size() == b.pixels.size() &&
-         std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof(glm::vec4)) == 0;
+         std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof(glm::vec4)) == 0 &&
+         std::equal(a.planes.begin(), a.planes.end(), b.planes.begin(), b.planes.end(),
+                    [](const Plane& c, const Plane& d) { return c.kind == d.kind && c.bytes == d.bytes; });
 }
 
 // Numbers in [0, 1) that are the same everywhere.

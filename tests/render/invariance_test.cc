@@ -76,6 +76,7 @@ RenderSettings EverythingSettings() {
   settings.environment.kind = EnvironmentSettings::Kind::Studio;
   settings.environment.rotation = 0.7;
   settings.background = Background::Environment;
+  for (const PlaneInfo& plane : kPlanes) settings.planes.push_back(plane.kind);
   return settings;
 }
 
@@ -108,6 +109,7 @@ TEST_F(Invariance, TheSceneShowsSomethingOfEverything) {
   for (const glm::vec4& pixel : film_.pixels) {
     for (int c = 0; c < 4; ++c) ASSERT_TRUE(std::isfinite(pixel[c]) && pixel[c] >= 0.0f);
   }
+  EXPECT_EQ(film_.planes.size(), std::size(kPlanes));
 }
 
 TEST_F(Invariance, InstructionSets) {
@@ -159,6 +161,7 @@ TEST(InvarianceOfMasks, TileSizesAndOrder) {
   }
   Add(scene, p, material);
   RenderSettings settings = Settings(96, 96, 4, Orthographic(1.0));
+  settings.planes = {PlaneKind::Depth};
   settings.tile_size = 64;
   const Film expected = Render(scene, settings);
   for (int tile_size : {8, 16, 32}) {

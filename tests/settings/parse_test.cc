@@ -119,6 +119,18 @@ TEST(ParseChoice, ListsTheChoices) {
             "--bits: '32' is no choice; give 8, 16 or 24");
 }
 
+TEST(ParsePlanes, TakesNamesOnce) {
+  EXPECT_EQ(ParsePlanes("--planes", "none"), std::vector<PlaneKind>{});
+  EXPECT_EQ(ParsePlanes("--planes", "triangle,depth"), (std::vector<PlaneKind>{PlaneKind::Triangle, PlaneKind::Depth}));
+  for (const char* wrong : {"", "Depth", "depth,", ",depth", "depth, triangle", "depth,none"}) {
+    EXPECT_NE(Complaint([&] { ParsePlanes("--planes", wrong); }).find("is no choice; give depth or triangle"),
+              std::string::npos)
+        << wrong;
+  }
+  EXPECT_NE(Complaint([] { ParsePlanes("--planes", "depth,depth"); }).find("depth stands in it twice"),
+            std::string::npos);
+}
+
 TEST(Choose, TakesANameOrAnIndex) {
   const std::vector<std::string> names = {"Front", "", "Back", "Twin", "Twin", "7"};
   EXPECT_EQ(Choose("--camera", "camera", "Front", names), 0);

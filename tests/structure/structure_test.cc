@@ -104,11 +104,15 @@ int RankOf(const std::string& room) {
 
 // The room that a public header belongs to: it says what is known there, and earlier rooms do without it.
 const std::map<std::string, std::string> kRoomOfHeader = {
-    {"error.h", "base"},  {"version.h", "base"},   {"digest.h", "base"},       {"shader/arithmetic_check.h", "base"},
-    {"image.h", "image"}, {"scene.h", "material"}, {"settings.h", "material"}, {"load.h", "gltf"},
-    {"shader.h", "plan"}, {"film.h", "film"},      {"render.h", "render"},     {"compare.h", "compare"},
-    {"check.h", "check"}, {"verify.h", "check"},   {"explain.h", "explain"},   {"report.h", "measure"},
-    {"facet.h", "cli"},
+    {"error.h", "base"},        {"version.h", "base"},
+    {"digest.h", "base"},       {"shader/arithmetic_check.h", "base"},
+    {"image.h", "image"},       {"scene.h", "material"},
+    {"settings.h", "material"}, {"load.h", "gltf"},
+    {"planes.h", "material"},   {"shader.h", "plan"},
+    {"film.h", "film"},         {"render.h", "render"},
+    {"compare.h", "compare"},   {"check.h", "check"},
+    {"verify.h", "check"},      {"explain.h", "explain"},
+    {"report.h", "measure"},    {"facet.h", "cli"},
 };
 // Those of facet/shader/ are made of lanes; shader-inl.h alone is of all that a user's own shader is made of.
 std::string RoomOfHeader(const std::string& target) {

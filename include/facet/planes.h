@@ -1,0 +1,74 @@
+// Planes that a film may have besides colour: one or more numbers a pixel that say something else of what is seen
+// there.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace facet {
+
+// All of them speak of a pixel's nearest sample of opaque or alpha-tested surfaces, the first of those that are equally
+// near. What is blended does not show in them, and the background is nothing.
+enum class PlaneKind : std::uint8_t {
+  Depth,     // distance along the camera's axis in metres; +infinity where there is nothing
+  Triangle,  // number of the triangle, line or point within its primitive; 0xffffffff where there is nothing
+};
+
+enum class PlaneType : std::uint8_t { F32, U32 };
+constexpr std::size_t SizeOf(PlaneType) { return 4; }
+constexpr std::string_view NameOf(PlaneType type) { return type == PlaneType::F32 ? "f32" : "u32"; }
+
+struct PlaneInfo {
+  PlaneKind kind;
+  std::string_view name;
+  int channels;  // numbers a pixel
+  PlaneType type;
+  std::string_view meaning;  // with its unit
+
+  constexpr std::size_t PixelBytes() const { return std::size_t(channels) * SizeOf(type); }
+};
+
+// All that there are, in the order of PlaneKind.
+inline constexpr PlaneInfo kPlanes[] = {
+    {PlaneKind::Depth, "depth", 1, PlaneType::F32, "distance along the camera's axis, metres"},
+    {PlaneKind::Triangle, "triangle", 1, PlaneType::U32, "number of the triangle, line or point within its primitive"},
+};
+
+constexpr const PlaneInfo& InfoOf(PlaneKind kind) { return kPlanes[std::size_t(kind)]; }
+
+// By name; null: there is none.
+constexpr const PlaneInfo* FindPlane(std::string_view name) {
+  for (const PlaneInfo& info : kPlanes) {
+    if (info.name == name) return &info;
+  }
+  return nullptr;
+}
+
+namespace internal {
+constexpr bool PlanesAreInOrder() {
+  std::size_t next = 0;
+  for (const PlaneInfo& info : kPlanes) {
+    if (std::size_t(info.kind) != next++) return false;
+  }
+  return true;
+}
+static_assert(PlanesAreInOrder(), "InfoOf() finds a plane by its kind");
+}  // namespace internal
+
+// A plane of a film: the film's height rows of its width pixels, top row first, little-endian, without gaps.
+struct Plane {
+  PlaneKind kind = PlaneKind::Depth;
+  std::vector<std::byte> bytes;
+
+  // The numbers; T is the plane's type: float or std::uint32_t.
+  template <class T>
+  std::span<const T> As() const {
+    static_assert(sizeof(T) == SizeOf(PlaneType::F32));
+    return {reinterpret_cast<const T*>(bytes.data()), bytes.size() / sizeof(T)};
+  }
+};
+
+}  // namespace facet

@@ -1,0 +1,44 @@
+// One tile of one plane, as the function that writes it sees it.
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+#include "frame/geometry.h"
+#include "frame/tile.h"
+
+namespace facet {
+
+inline constexpr std::int32_t kNoSample = -1;
+
+struct PlaneTile {
+  const TileBuffers& tile;
+  const TriangleRecord* const* records;  // by their numbers in tile.record
+  const FrameView& view;
+  const FrameDrawable* drawables;  // by TriangleRecord::drawable
+  // Where each pixel's nearest sample stands in tile.depth and tile.record, tile_size a row; kNoSample: nothing is
+  // there.
+  const std::int32_t* nearest;
+  std::byte* out;          // of the tile's top left pixel
+  std::size_t out_stride;  // bytes from one row of the plane to the next
+
+  const TriangleRecord& RecordAt(std::size_t sample) const { return *records[tile.record[sample]]; }
+};
+
+// Writes each pixel of the tile: value(sample) of its nearest sample, or `nothing`.
+template <class T, class Value>
+void WritePixels(const PlaneTile& t, const T& nothing, const Value& value) {
+  static_assert(std::endian::native == std::endian::little, "planes are little-endian");
+  for (int y = 0; y < t.tile.height; ++y) {
+    const std::int32_t* nearest = t.nearest + y * t.tile.tile_size;
+    std::byte* out = t.out + std::size_t(y) * t.out_stride;
+    for (int x = 0; x < t.tile.width; ++x, out += sizeof(T)) {
+      const T v = nearest[x] == kNoSample ? nothing : value(static_cast<std::size_t>(nearest[x]));
+      std::memcpy(out, &v, sizeof(T));
+    }
+  }
+}
+
+}  // namespace facet
