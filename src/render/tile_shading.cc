@@ -98,7 +98,7 @@ void TileShading::ShadePart(const Batch& batch, ShadedFragments& fragments) {
   const std::size_t n = selected_.size(), padded = (n + kTaskPadding - 1) / kTaskPadding * kTaskPadding;
   if (n == 0) return;
   const bool alpha_only = batch.lighting == nullptr;
-  SetUpAttributes(batch, fragments.list, padded);
+  SetUpBatch(batch, fragments.list, padded);
   PlaceFragments(batch.tile, fragments.list, padded);
   for (auto* v : {&red_, &green_, &blue_, &alpha_}) v->resize(padded);
   ShadeTask task;
@@ -139,7 +139,7 @@ void TileShading::ShadePart(const Batch& batch, ShadedFragments& fragments) {
 }
 
 // One setup per triangle and batch; the padding has the last fragment's.
-void TileShading::SetUpAttributes(const Batch& batch, const FragmentList& list, std::size_t padded) {
+void TileShading::SetUpBatch(const Batch& batch, const FragmentList& list, std::size_t padded) {
   const std::size_t n = selected_.size();
   ++batch_number_;
   set_up_.clear();

@@ -40,7 +40,7 @@ class TileShading {
   struct Batch;
   void ShadeBatch(const Batch& batch, ShadedFragments& fragments);
   void ShadePart(const Batch& batch, ShadedFragments& fragments);
-  void SetUpAttributes(const Batch& batch, const FragmentList& list, std::size_t padded);
+  void SetUpBatch(const Batch& batch, const FragmentList& list, std::size_t padded);
   void PlaceFragments(const TileBuffers& tile, const FragmentList& list, std::size_t padded);
   void SelectAll(std::size_t count);
 
