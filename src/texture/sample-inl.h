@@ -1,5 +1,4 @@
-// Samples textures in linear light: wrapping, and bilinear, trilinear and anisotropic filtering. T: Float (lanes),
-// float or double.
+// Samples textures in linear light: wrapping; bilinear, trilinear, anisotropic filters. T: Float (lanes), float, double.
 
 #if defined(FACET_TEXTURE_SAMPLE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef FACET_TEXTURE_SAMPLE_INL_H_
@@ -189,8 +188,7 @@ struct TextureTaps {
   static constexpr int kMax = 16;  // taps along the major axis, in one level
   int count;                       // entries of `taps` that are used by the lane that has most of them
   IndexList<T> of_lane;            // how many each lane uses
-  // The taps along the major axis in the finer level. Where two levels are read, each is followed by the tap at the
-  // same position in the coarser level.
+  // The taps in the finer level; with two levels, each is followed by the tap at its position in the coarser level.
   bool two_levels;
   BilinearTap<T> taps[2 * kMax];
   Vec2<T> uv;  // the centre of the taps
@@ -352,9 +350,8 @@ struct NumberOfBlocks {
 };
 inline constexpr NumberOfBlocks kNumberOfBlocks;
 
-// The sums for a vector of lanes. The two texels of a row are one 16-byte block of 16-bit integers (R, R, G, G, B, B,
-// A, A), so that one multiply-add of pairs weighs both; a vector holds the blocks of every fourth lane. Vectors have
-// two blocks: four (512 bits) are no faster on processors that execute them in halves.
+// The two texels of a row are one 16-byte block of 16-bit integers (R, R, G, G, B, B, A, A): one multiply-add of pairs
+// weighs both. A vector holds two such blocks, of every fourth lane; four are no faster where 512 bits run in halves.
 template <int kCount, bool kSparse, class T>
 HWY_INLINE void SumTexelsInLanes(const TextureData* const* textures, const TextureTaps<T>& taps, TexelSums<T>* sums) {
   using Tag = hn::CappedTag<std::int32_t, 8>;
@@ -404,8 +401,7 @@ HWY_INLINE void SumTexelsInLanes(const TextureData* const* textures, const Textu
 }
 #endif
 
-// Sums the texels at `taps` of kCount textures that share these taps. A sparse texture must come alone. (Not inlined,
-// as the code is large.)
+// Sums the texels of kCount textures that share `taps`. A sparse texture must come alone. (Large, hence not inlined.)
 template <int kCount, class T>
 HWY_NOINLINE void SumTexels(const TextureData* const* textures, const TextureTaps<T>& taps, TexelSums<T>* sums) {
   if constexpr (kInLanes<T>) {
@@ -444,8 +440,7 @@ HWY_INLINE void SumTexels(int count, const TextureData* const* of, const Texture
   }
 }
 
-// The filtered value in [0, 1] of those channels of a texture that kChannels (a ChannelMask) names, from its `sums`.
-// The other channels are 0.
+// The filtered values in [0, 1] of the channels in kChannels (a ChannelMask), from `sums`; other channels are 0.
 template <int kChannels, class T>
 HWY_INLINE Vec4<T> ChannelsOf(const TextureData& data, const TexelSums<T>& sums) {
   // From sums of weighted components to [0, 1]. 16-bit components were summed as code - 32768, which is added back.
