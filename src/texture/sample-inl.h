@@ -1,4 +1,4 @@
-// Samples textures in linear light: wrapping; bilinear, trilinear, anisotropic filters. T: Float (lanes), float, double.
+// Samples textures in linear light: wrap modes, bilinear to anisotropic filters. T: Float (lanes), float, double.
 
 #if defined(FACET_TEXTURE_SAMPLE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef FACET_TEXTURE_SAMPLE_INL_H_
