@@ -15,7 +15,7 @@ namespace {
 
 bool HasAlpha(const Image& image) { return image.channels == 2 || image.channels == 4; }
 
-// Linear light of the 65536 codes of a 16-bit number.
+// The linear light of all 65536 codes of 16 bits.
 const std::vector<float>& Srgb16ToLinearTable() {
   static const std::vector<float> table = [] {
     std::vector<float> entries(65536);
@@ -41,7 +41,7 @@ Image Blank(const Image& like, int channels, ChannelType type) {
   return out;
 }
 
-// Writes the linear value of every number of the picture.
+// Writes the linear value of every component of the image.
 template <class T, class Colour, class Alpha>
 void ForEachNumber(const Image& image, Colour&& colour, Alpha&& alpha, float* out) {
   const T* from = image.As<T>();
