@@ -66,9 +66,9 @@ using VertexBuffer = PageVector<ScreenVertex>;
 enum class RecordKind : std::uint8_t { Triangle, Line, Point };
 
 // A triangle on the screen, with vertices snapped to 1/256 pixel: a primitive, or one of the pieces that a clipped
-// triangle, a line or a point is made of. depth(x, y) = depth_0 + depth_dx * (x - x_0) + depth_dy * (y - y_0), in
-// pixels, clamped to [depth_min, depth_max]. In double, because vertex 0 may be thousands of pixels away; rounded to
-// float once for each block (MakeBlockDepth).
+// triangle, a line or a point is made of. Its depth, clamped to [depth_min, depth_max], is
+//   depth(x, y) = depth_0 + depth_dx * (x - x_0) + depth_dy * (y - y_0), with x and y in pixels,
+// in double, because vertex 0 may be thousands of pixels away; it is rounded to float once per block (MakeBlockDepth).
 struct TriangleRecord {
   std::int32_t x_fx8[3], y_fx8[3];  // clockwise on the screen (y down): positive area
   double depth_0, depth_dx, depth_dy;
