@@ -54,7 +54,7 @@ void ForEachNumber(const Image& image, Colour&& colour, Alpha&& alpha, float* ou
 
 std::uint8_t ToByte(std::uint16_t value) { return static_cast<std::uint8_t>((value * 255u + 32767u) / 65535u); }
 
-// [0, 1] to [0, max], nearest; NaN to 0.
+// Maps [0, 1] to [0, max], rounded to nearest; NaN to 0.
 float Quantised(float value, float max) {
   const float unit = value > 0.0f ? (value < 1.0f ? value : 1.0f) : 0.0f;
   return std::floor(unit * max + 0.5f);
