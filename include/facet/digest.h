@@ -1,4 +1,4 @@
-// Fingerprints: equal exactly where pictures, and what they are made from, are equal to the last bit.
+// Digests of films, images and scenes: equal exactly if these are equal, bit for bit.
 #pragma once
 
 #include <array>

@@ -14,15 +14,15 @@ enum class ErrorCode {
   InvalidInput,   // an input file breaks its format's rules
   Unsupported,    // an input file requires something that facet does not have
   OutputFailed,   // an output file could not be written whole
-  OutOfMemory,    // a request is larger than the stated bound or than the machine
+  OutOfMemory,    // a request exceeds the memory limit, or what the machine has
   MissingModule,  // an optional module (OpenImageIO) is needed and not installed
 };
 
 // Every failure of the library. `what()` is one line: "WHERE: MESSAGE; HINT".
 class Error : public std::runtime_error {
  public:
-  // `message`: what is wrong. `where`: the file and the place in it, may be empty.
-  // `hint`: what the user can do about it, may be empty. None ends in a full stop or holds a line break.
+  // `message`: what is wrong. `where`: the file and the location in it, may be empty. `hint`: what the user can do
+  // about it, may be empty. None of them ends in a full stop or contains a line break.
   Error(ErrorCode code, std::string message, std::string where = {}, std::string hint = {});
 
   ErrorCode code() const noexcept { return code_; }

@@ -1,4 +1,4 @@
-// What a frame of a scene uses, what it leaves out and why, and what each thing costs.
+// An explanation of a frame: the features it uses, those it disables and why, and the cost of each.
 #pragma once
 
 #include <cstddef>
@@ -11,38 +11,38 @@
 
 namespace facet {
 
-// A material as some of the geometry uses it.
+// A material together with the geometry that uses it.
 struct ExplainedMaterial {
-  std::string name;  // empty: it has none, or is glTF's default
+  std::string name;  // empty: none, or glTF's default material
   int index = -1;    // into Scene::materials; -1: glTF's default
   bool lit = false;
-  std::vector<std::string> features;  // words of --without that shading it takes, and "double-sided"
+  std::vector<std::string> features;  // words of --without for what shading it needs, and "double-sided"
   std::uint64_t drawables = 0;
-  std::uint64_t triangles = 0;  // lines and points too
+  std::uint64_t triangles = 0;  // including lines and points
 };
 
 struct ExplainedTexture {
-  std::string image;                 // its name, or where its bytes are
+  std::string image;                 // its name, or the location of its bytes
   std::vector<std::string> roles;    // "base-color", "metallic-roughness", "normal", "occlusion", "emission"
-  ImageHeader file;                  // what the encoded picture says of itself
-  std::optional<TextureStats> kept;  // none: no visible triangle reads it, or it could not be decoded
+  ImageHeader file;                  // the header of the encoded image
+  std::optional<TextureStats> kept;  // the stored texture; none: nothing visible reads it, or decoding failed
 };
 
 struct ExplainedLights {
   int directional = 0, point = 0, spot = 0;
 };
 
-// What one feature takes, by leaving it out and taking the difference. All may be negative: a surface that does not
-// blend hides what is behind it.
+// The cost of one feature: the difference between frames with it and frames without it. It may be negative: a surface
+// that does not blend, for example, hides what is behind it.
 struct FeatureCost {
   std::string feature;  // a word of --without, or "multisampling", "background", "planes", "anisotropy"
-  std::string option;   // that leaves it out: "--without skins"
-  int pairs = 0;        // of steady frames, with it and without it by turns
-  // Seconds of a steady frame: median of the pairs' differences, and their quartiles. A cost whose quartiles have
-  // different signs is within the noise.
+  std::string option;   // the option that disables it: "--without skins"
+  int pairs = 0;        // number of pairs of steady frames, alternately with and without it
+  // Seconds of a steady frame: the median of the pairs' differences, and their quartiles. If the quartiles differ in
+  // sign, the cost is lost in the noise.
   double seconds = 0, seconds_low = 0, seconds_high = 0;
-  double first_seconds = 0;  // of the first frame's pose, decoding of textures, and environment
-  std::int64_t bytes = 0;    // kept from frame to frame: textures, environment, copies of geometry
+  double first_seconds = 0;  // in the first frame: pose, decoding of textures, environment
+  std::int64_t bytes = 0;    // of memory that lasts from frame to frame: textures, environment, copies of geometry
 };
 
 struct Explanation {
@@ -54,20 +54,20 @@ struct Explanation {
   bool environment_light = false, environment_background = false;
   std::vector<PlaneKind> planes;  // of the film, besides colour
   std::string environment;        // "studio", "WxH", or empty
-  RenderStats first;              // of the first frame; `left_out` has what the frame does without and why
-  RenderStats steady;             // of a frame like the one before
+  RenderStats first;              // of the first frame; `left_out` says what is disabled and why
+  RenderStats steady;             // of a later frame with the same settings
   int frames = 0;
-  double steady_seconds = 0;  // median of as many
+  double steady_seconds = 0;  // median over `frames`
   std::vector<FeatureCost> costs;
 };
 
-// Renders the scene again and again: some ten frames at least for each feature that it uses. `settings.progress` is not
-// called. Throws what Render() throws.
+// Renders the scene repeatedly, at least some ten frames for each feature that it uses. Does not call
+// `settings.progress`. Throws what Render() throws.
 Explanation Explain(const Scene& scene, const RenderSettings& settings);
 
-// For people: tables. `scene` is what the scene is called.
+// As tables for people. `scene`: the name to print.
 std::string ToText(const Explanation& explanation, const std::string& scene);
-// The same numbers as one JSON object with stable keys; times in seconds.
+// The same as one JSON object with stable keys; times in seconds.
 std::string ToJson(const Explanation& explanation, const std::string& scene);
 
 }  // namespace facet

@@ -1,4 +1,5 @@
-// The linear picture that rendering makes, with the planes that it may have besides, and its way to the display.
+// The film, which is the linear image that rendering produces, with the planes that it may have besides colour, and its
+// tone mapping and encoding for display.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +14,7 @@
 
 namespace facet {
 
-// Linear light, Rec. 709, premultiplied by coverage alpha; height rows of width pixels, top row first.
+// Linear light, Rec. 709, premultiplied by alpha (coverage); height rows of width pixels, top row first.
 struct Film {
   int width = 0;
   int height = 0;
@@ -21,11 +22,11 @@ struct Film {
   std::vector<Plane> planes = {};  // those of RenderSettings::planes, in its order
 };
 
-// Of the line "facet film WIDTH HEIGHT\n" and the pixels: R, G, B, A as little-endian IEEE 754 floats, top row first.
-// Colour alone: planes besides it do not change it.
+// The digest of the line "facet film WIDTH HEIGHT\n" followed by the pixels: R, G, B, A as little-endian IEEE 754
+// floats, top row first. Planes do not change it.
 Digest HashFilm(const Film& film);
 
-// Of the line "facet plane NAME WIDTH HEIGHT CHANNELS TYPE\n", TYPE being f32 or u32, and the bytes of
+// The digest of the line "facet plane NAME WIDTH HEIGHT CHANNELS TYPE\n", TYPE being f32 or u32, and the bytes of
 // film.planes[plane].
 Digest HashPlane(const Film& film, std::size_t plane);
 
@@ -34,13 +35,14 @@ enum class ToneMap : std::uint8_t { None, Reinhard, Aces, AgX, Neutral };
 struct DisplaySettings {
   double exposure_ev = 0.0;  // light is multiplied by 2^exposure_ev
   ToneMap tone_map = ToneMap::Neutral;
-  // Shown behind the picture, sRGB in [0, 1] as it shall stand in the file; none: stays transparent.
+  // A colour to composite the image over, in sRGB, [0, 1], exactly as it shall be in the output; none: the image stays
+  // transparent.
   std::optional<glm::vec3> background_srgb;
 };
 
-// Exposure, tone curve, background and sRGB encoding. `type` U8 or U16 gives an sRGB picture, F32 a linear one that is
-// exposed but not tone-mapped (the display's background, when given, is put behind it in linear light).
-// 4 channels, straight alpha; 3 channels when a background makes every pixel opaque.
+// Applies exposure, tone curve, background and sRGB encoding. With `type` U8 or U16 the image is sRGB; with F32 it is
+// linear, exposed but not tone-mapped, and composited over the background, if there is one, in linear light. The image
+// has 4 channels with straight alpha, or 3 if a background makes every pixel opaque.
 Image Develop(const Film& film, const DisplaySettings& settings, ChannelType type = ChannelType::U8);
 
 }  // namespace facet

@@ -1,4 +1,4 @@
-// Files into scenes and pictures.
+// Loading of scenes, and of environments with a cache.
 #pragma once
 
 #include <cstddef>
@@ -15,22 +15,22 @@ namespace facet {
 
 class EnvironmentSource;  // EnvironmentSettings::source of facet/settings.h
 
-// An extension that a file names, and what becomes of it.
+// A glTF extension that a file uses.
 struct ExtensionUse {
   std::string name;
   bool required = false;
   bool supported = false;
 };
 
-// What a loader noticed and the Scene does not say.
+// What a loader has to say besides the Scene.
 struct LoadReport {
-  std::string generator, copyright, version;   // asset's
+  std::string generator, copyright, version;   // of the glTF asset
   std::vector<ExtensionUse> extensions;        // sorted by name
-  // What was ignored or repaired, one line for each mistake: "WHERE: WHAT", where it stands first, and in how many more
-  // places. docs/conventions.md says what is repaired.
+  // What was ignored or repaired, one line for each kind of mistake: "WHERE: WHAT", with its first location and the
+  // number of further ones. docs/conventions.md lists what is repaired.
   std::vector<std::string> warnings;
   std::size_t file_bytes = 0;                  // all files that were read
-  // The scene's own file, and those that it names, of images also where they are not read yet.
+  // The scene's file and those that it refers to, including images that have not been read yet.
   std::vector<std::filesystem::path> files;
 };
 
@@ -40,31 +40,32 @@ struct LoadedScene {
 };
 
 struct LoadOptions {
-  // Bytes that loading may take, all in all: the files, their JSON while it is read, what the scene holds. 0: three
-  // quarters of what the machine, or the control group of the process, has. What needs more is refused before it is
-  // allocated, with Error(OutOfMemory).
+  // Limit, in bytes, of all memory that loading takes: the files, their JSON while it is parsed, and the scene. 0:
+  // three quarters of the memory of the machine, or of the process's control group. A file that needs more is refused
+  // with Error(OutOfMemory) before the memory is allocated.
   std::uint64_t memory_limit = 0;
-  // The folder that all files named by the scene must lie in; empty: the folder of the scene's own file. Links that
-  // lead out of it count as outside. "/" allows all.
+  // The folder in which all files that the scene refers to must lie; empty: the folder of the scene's file. A symbolic
+  // link that leads out of it counts as outside. "/" allows all files.
   std::filesystem::path root;
-  // Files of 64 MiB and more are mapped and not read: what is not used of them takes no time and no memory. They must
-  // stay as they are for as long as the scene is in use: a mapped file that is cut short meanwhile ends the process
-  // with SIGBUS. False: all files are read.
+  // Files of 64 MiB and more are mapped into memory, so that unused parts take neither time nor memory. They must not
+  // change while the scene is in use: if a mapped file is truncated, the process ends with SIGBUS. False: all files are
+  // read.
   bool map_files = true;
-  // Load in spite of required extensions that facet does not have; each becomes a warning.
+  // Load the file although it requires extensions that facet does not support; each becomes a warning.
   bool ignore_required_extensions = false;
 };
 
-// Loads a .gltf or .glb file (told apart by content). Pictures stay encoded until they are needed. What breaks glTF's
-// rules is an error only where the default scene shows it and it cannot be guessed.
+// Loads a .gltf or .glb file (the content tells which). Images stay encoded until they are needed. A violation of
+// glTF's rules is an error only if it affects the default scene and cannot be repaired; otherwise it is a warning.
 // Throws Error: NotFound, InvalidInput, Unsupported (a required extension, by name), OutOfMemory.
 LoadedScene LoadGltf(const std::filesystem::path& path, const LoadOptions& options = {});
 
-// A picture for EnvironmentSettings::source that is decoded and prepared only where the folder `cache` does not hold
-// what an earlier frame, of any program, prepared from a file of the same bytes with the same settings: the same frame,
-// bit for bit, in less time. The folder is made when something is kept in it; where that fails, RenderStats::warnings
-// says so. What is kept is never removed; several programs may share it. Reads the file at once, and throws the Error
-// NotFound; it must stay as it is: frames throw what LoadImage() does, and InvalidInput where it was changed.
+// Opens an environment image for EnvironmentSettings::source whose prefiltered maps are cached in the folder `cache`.
+// The image is decoded and prefiltered only if the cache has no entry for a file of the same bytes and the same
+// settings; frames are the same, bit for bit, with and without the cache. Several programs may share a cache; entries
+// are never removed. The folder is created when the first entry is written; if that fails, RenderStats::warnings says
+// so. Reads the file at once to compute its digest: throws Error(NotFound). The file must not change afterwards: frames
+// throw what LoadImage() throws, and InvalidInput if it has changed.
 std::shared_ptr<const EnvironmentSource> OpenEnvironment(const std::filesystem::path& picture,
                                                          const std::filesystem::path& cache);
 

@@ -16,59 +16,60 @@ namespace facet {
 // Options of `facet render`, name to value: {"size", "256x256"}.
 using SettingsText = std::map<std::string, std::string>;
 
-// What a rendering may cost. What is not given is not bounded.
+// Upper bounds on error and time. A bound that is not given does not apply.
 struct Bound {
   std::optional<double> max_relative_rmse;  // > 0
   std::optional<double> max_seconds;        // > 0
 };
 
 struct ReportSettings {
-  // Wall clock, for loading, the reference and all points; 1 to 86400. The first few blocks of the reference and the
-  // settings asked for are measured whatever it says, and what has been begun when it ends is finished: one rendering,
-  // or one of all points where the machine became slower meanwhile.
+  // Wall clock for loading, the reference and all points; 1 to 86400. The first few blocks of the reference and the
+  // requested settings are measured in any case, and what has begun when the budget ends is finished: one rendering, or
+  // one round over all points if the machine became slower meanwhile.
   double budget_seconds = 60.0;
   int threads = 0;  // 0: one per core
-  // Called now and then from the calling thread with the share of the budget that is used and what is being done. May
+  // Called now and then on the calling thread with the share of the budget that is used and the current activity. May
   // be empty.
   std::function<void(double, const std::string&)> progress;
-  // What a point is wanted for. Where no settings come near it the report ends as soon as that is known.
+  // The bound that some point should keep. If no settings can come near it, the report ends as soon as that is known.
   Bound bound;
 };
 
-// How far a picture is from the reference. Over all pixels that the reference has and R, G, B, in linear light that is
+// The error of a film against the reference: over R, G and B of all pixels that the reference has, in linear light
 // premultiplied by alpha.
 struct FilmError {
   double rmse = 0.0;            // root of the mean squared difference
-  double relative_rmse = 0.0;   // that, divided by the root mean square of the reference
-  double largest = 0.0;         // the largest difference of a number
-  double flip = 0.0;            // mean FLIP of the developed pictures
-  double standard_error = 0.0;  // of `relative_rmse`, where not all of the picture's pixels were compared
+  double relative_rmse = 0.0;   // rmse divided by the root mean square of the reference
+  double largest = 0.0;         // the largest difference of one component
+  double flip = 0.0;            // mean FLIP of the tone-mapped and encoded images
+  double standard_error = 0.0;  // of `relative_rmse`, if not all pixels of the image were compared
 };
 
-// One choice of settings, measured.
+// A measurement of one choice of settings.
 struct ReportPoint {
-  SettingsText changed;  // what differs from the settings that were asked for; empty: those themselves
+  SettingsText changed;  // what differs from the requested settings; empty: nothing
   int runs = 0;
-  // Of Render(): the median of the runs, which go round all points in turn, less what slowed whole rounds.
+  // Of Render(): the median over the runs. Runs are made in rounds over all points; what slowed a whole round is
+  // subtracted.
   double seconds = 0.0;
   double seconds_low = 0.0;    // the fastest run
   double seconds_high = 0.0;   // the slowest
-  std::size_t peak_bytes = 0;  // what the process grew by at most while rendering; 0 where it is not known
+  std::size_t peak_bytes = 0;  // peak growth of the process while rendering; 0: not known
   FilmError error;
   bool pareto = false;                   // no other point has both less error (relative RMSE) and less time
-  std::vector<std::byte> picture_png;    // the developed picture
+  std::vector<std::byte> picture_png;    // the encoded image
   std::vector<std::byte> error_map_png;  // FLIP against the reference, as a heat map
 };
 
-// An approximation, by itself: from the settings asked for to its most exact value and to its cheapest.
+// The cost of one approximation: the requested settings against its most exact and its cheapest value.
 struct ApproximationCost {
   std::string option;
   std::string used, cheapest, most_exact;  // values
-  // Relative RMSE and seconds of those three points. `used` is the point of the settings asked for.
+  // Relative RMSE and seconds of these three points. `used`: the requested settings.
   double error_used = 0, error_cheapest = 0, error_most_exact = 0;
   double seconds_used = 0, seconds_cheapest = 0, seconds_most_exact = 0;
-  // Relative RMSE between the pictures with the used value and with the most exact one, all else the same: what this
-  // approximation alone changes.
+  // Relative RMSE between the image with the used value and the one with the most exact value, all else being equal:
+  // the effect of this approximation alone.
   double change = 0;
 };
 
@@ -80,58 +81,56 @@ struct ErrorReport {
   int width = 0, height = 0;
   SettingsText settings;  // every option, defaults spelled out
   struct Reference {
-    int samples = 0;  // a pixel and batch
+    int samples = 0;  // per pixel and batch
     int batches = 0;
-    // Pixels that it has of the picture, in blocks spread evenly over it: as many as there was time for. All errors are
-    // over these.
+    // The number of the image's pixels that were computed, as many as there was time for, in blocks spread evenly over
+    // it. All errors are over these pixels.
     std::size_t pixels = 0;
     double seconds = 0.0;
-    double rms_error = 0.0;  // what is left of its own error, as it estimates it
+    double rms_error = 0.0;  // the reference's estimate of its own remaining error
     double relative_error = 0.0;
     std::vector<std::string> notes;
   } reference;
   std::vector<std::string> warnings;         // of loading and rendering; not stored
-  std::vector<std::filesystem::path> files;  // that the scene was read from; not stored
-  // The same algorithm on lanes of floats and in double: the rounding error, apart from the approximations'.
+  std::vector<std::filesystem::path> files;  // all files of the scene; not stored
+  // The rounding error alone: the same algorithm in lanes of floats against double.
   std::optional<FilmError> rounding;
-  std::vector<ReportPoint> points;  // points[0] has the settings asked for
+  std::vector<ReportPoint> points;  // points[0] has the requested settings
   std::vector<ApproximationCost> costs;
   double seconds = 0.0;
   bool complete = false;  // false: the budget ended before every point was measured
   std::size_t planned_points = 0;
-  // Why no settings would keep ReportSettings::bound, one line; the report has then the points that are nearest to it,
-  // as far as is known, and the settings asked for. Empty: some may. Not stored.
+  // One line that says why no settings can keep ReportSettings::bound; the report then has the requested settings and
+  // the points nearest to the bound, as far as known. Empty: some settings may keep it. Not stored.
   std::string out_of_reach;
 };
 
-// Renders the reference of a scene, or as much of it as half of the budget is enough for, then the scene with every
-// approximation's values, one at a time, and with combinations of them as long as the budget lasts. There is always a
-// point.
-// Throws Error: InvalidUsage for settings that do not exist or are out of range; what LoadGltf, LoadImage and Render
-// throw.
+// Renders the reference of a scene, or as much of it as fits half of the budget; then the scene with each value of each
+// approximation, one changed at a time, and with combinations of them for as long as the budget lasts. The report has
+// at least one point. Throws Error: InvalidUsage for settings that do not exist or are out of range; what LoadGltf,
+// LoadImage and Render throw.
 ErrorReport MeasureErrors(const std::filesystem::path& scene, const SettingsText& settings,
                           const ReportSettings& report = {}, const LoadOptions& load = {});
 
-// One page without scripts or files of others': diagrams in SVG, tables, pictures.
+// One self-contained page without scripts: diagrams in SVG, tables, images.
 std::string ToHtml(const ErrorReport& report);
-// An object with the array `points`; pictures are left out.
+// An object with the array `points`, without the images.
 std::string ToJson(const ErrorReport& report);
-// A line per point.
+// One line per point.
 std::string ToCsv(const ErrorReport& report);
 
-// What ToJson() gave. Throws Error(InvalidInput); `name` is what messages call it.
+// The inverse of ToJson(). Throws Error(InvalidInput), whose message calls the text `name`.
 ErrorReport ReportFromJson(const std::string& json, const std::string& name);
 
-// The point of a report that keeps the bound: the fastest one whose error is within, or the most exact one whose time
-// is within, or, under both, the fastest. None does: the nearest, and `kept` is false.
+// The best point of a report that keeps a bound: the fastest one, or, if only time is bounded, the most exact one. If
+// none keeps the bound, the nearest one, and `kept` is false.
 struct Choice {
   std::size_t point = 0;  // index into ErrorReport::points
   bool kept = false;
   std::string why;  // one line, for people
 };
 
-// Throws Error(InvalidUsage) for a bound that is no positive number, or none at all; InvalidInput for a report without
-// points.
+// Throws Error: InvalidUsage if the bound is empty or not positive, InvalidInput for a report without points.
 Choice ChoosePoint(const ErrorReport& report, const Bound& bound);
 
 }  // namespace facet

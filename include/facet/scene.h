@@ -45,7 +45,7 @@ struct Texture {
 // A use of a texture. uv' = offset + R(rotation) * (scale * uv), KHR_texture_transform.
 struct TextureRef {
   int texture = -1;
-  int tex_coord = 0;  // which UV set
+  int tex_coord = 0;  // the UV set: TEXCOORD_n
   glm::vec2 offset{0.0f};
   glm::vec2 scale{1.0f};
   float rotation = 0.0f;  // radians, counter-clockwise in UV space with v down, as the extension defines it
@@ -90,23 +90,23 @@ struct MorphTarget {
   std::vector<glm::vec4> colors;
 };
 
-// Geometry with one material. Every non-empty attribute array has positions.size() entries. Their numbers may be
-// anything: what is not finite or has no direction is replaced or left out, see docs/conventions.md.
+// Geometry with one material. Every non-empty attribute array has positions.size() entries. Attributes may have any
+// value: vectors that are not finite or have no direction are replaced or ignored, see docs/conventions.md.
 struct Primitive {
   Topology topology = Topology::Triangles;
   std::vector<glm::vec3> positions;  // mesh space
   std::vector<glm::vec3> normals;    // unit; empty: flat shading
-  std::vector<glm::vec4> tangents;   // xyz unit, w = +-1 handedness; empty: made when a normal map needs them
+  std::vector<glm::vec4> tangents;   // xyz unit, w = +-1 handedness; empty: generated if a normal map needs them
   std::vector<std::vector<glm::vec2>> tex_coords;
   std::vector<glm::vec4> colors;                   // linear RGBA, straight alpha
   std::vector<std::vector<glm::u16vec4>> joints;   // JOINTS_n: indices into Skin::joints
   std::vector<std::vector<glm::vec4>> weights;     // WEIGHTS_n
-  // Every value < positions.size(); a multiple of 3 for Triangles, of 2 for Lines. Empty: 0, 1, 2 ... as far as they
-  // make whole triangles or lines.
+  // Each index is less than positions.size(); their number is a multiple of 3 for Triangles, of 2 for Lines. Empty: not
+  // indexed, so vertices 0, 1, 2 ... are used, as far as they make whole triangles or lines.
   std::vector<std::uint32_t> indices;
   std::vector<MorphTarget> targets;
   int material = -1;                   // -1: glTF's default material
-  std::vector<int> variant_materials;  // by index of Scene::variants; empty, or -1 where the variant leaves it alone
+  std::vector<int> variant_materials;  // by index of Scene::variants; empty or -1: unchanged
 };
 
 struct Mesh {
@@ -127,7 +127,7 @@ struct Camera {
   std::string name;
   bool orthographic = false;
   double yfov = 0.8;                       // perspective: vertical field of view, (0, pi)
-  std::optional<double> aspect;            // perspective: width / height; none: the picture's
+  std::optional<double> aspect;            // perspective: width / height; none: the image's
   double xmag = 1.0, ymag = 1.0;           // orthographic: half extents
   double znear = 0.01;
   double zfar = std::numeric_limits<double>::infinity();
@@ -172,11 +172,11 @@ struct AnimationChannel {
   int node = -1;
   AnimationPath path = AnimationPath::Translation;
   Interpolation interpolation = Interpolation::Linear;
-  // Seconds, never decreasing. Of keys at one time, which make a jump, the first ends the span before, the last begins
-  // the span after.
+  // Seconds, never decreasing. Several keys at one time make a jump: the first of them ends the interval before, the
+  // last begins the interval after.
   std::vector<float> times;
-  // times.size() * width numbers, or thrice that for CubicSpline (in-tangent, value, out-tangent per key);
-  // width is 3, 4 (x, y, z, w) or the number of morph targets.
+  // times.size() * width values, or three times as many for CubicSpline (in-tangent, value, out-tangent per key); width
+  // is 3, 4 (x, y, z, w) or the number of morph targets.
   std::vector<float> values;
 };
 
@@ -189,11 +189,11 @@ struct Animation {
 
 struct SceneRoots {
   std::string name;
-  std::vector<int> nodes;  // with all that is below them. One that has a parent stands as if it had none
+  std::vector<int> nodes;  // drawn with all descendants; their parents are ignored
 };
 
-// Every index in it is valid or -1, every parameter finite and in the range that stands beside it, and the node
-// hierarchy is a forest: loaders guarantee it, ValidateScene checks it.
+// Every index is valid or -1, every parameter is finite and in the range given beside it, and the node hierarchy is a
+// forest. Loaders guarantee this; ValidateScene() checks it.
 struct Scene {
   std::vector<SceneImage> images;
   std::vector<Texture> textures;
@@ -209,12 +209,12 @@ struct Scene {
   std::vector<std::string> variants;  // KHR_materials_variants
 };
 
-// Throws Error(InvalidInput) naming the first index, size, number or cycle that breaks the rules above. Render() and
-// all that draws or measures a scene call it.
+// Throws Error(InvalidInput) that names the first index, size, value or cycle that breaks the rules above. Render() and
+// all other functions that draw or measure a scene call it.
 void ValidateScene(const Scene& scene);
 
-// What a rendering starts from, each apart: where two machines' pictures differ, these tell a decoder's difference from
-// the renderer's. Names are not part of them: they change no picture.
+// Digests of the renderer's inputs. Where the images of two machines differ, they tell whether a decoder or the
+// renderer is the cause. Names of objects do not count, since they do not change the image.
 struct SceneDigests {
   Digest description;  // nodes, materials, samplers, cameras, lights, skins, animations, variants
   Digest geometry;     // attributes, indices and morph targets, as decoded

@@ -1,5 +1,5 @@
-// Fragment shaders of one's own: see facet/shader/shader-inl.h for how to write one, and facet_add_shader() in CMake
-// for how to compile it for every instruction set.
+// The interface of users' fragment shaders. facet/shader/shader-inl.h says how to write one; the CMake function
+// facet_add_shader() compiles it for every instruction set.
 #pragma once
 
 #include <cstdint>
@@ -8,14 +8,15 @@ namespace facet {
 
 struct ShadeTask;
 
-// Of which materials a shader reads the light: a frame prepares none that nobody reads.
+// For which materials a shader reads the lights and the environment. A frame does not prepare light that nothing reads.
 enum class LightUse : std::uint8_t {
-  None,            // it shows normals, say
-  LitMaterials,    // not of those that are unlit, where the surface has neither position nor normal
+  None,            // for example, a shader that shows normals
+  LitMaterials,    // not for unlit materials, whose surfaces have neither position nor normal
   EveryMaterial,
 };
 
-// What the functor of a shader says of itself: `static constexpr facet::LightUse kLight = ...;` in it, or the default.
+// The LightUse that a shader's functor declares as `static constexpr facet::LightUse kLight = ...;`, or else the
+// default.
 template <class Functor>
 constexpr LightUse LightUseOf() {
   if constexpr (requires { Functor::kLight; }) {
@@ -30,7 +31,7 @@ class FragmentShader {
  public:
   virtual ~FragmentShader() = default;
   virtual void Shade(const ShadeTask& task) const = 0;
-  // A shader that reads light all the same finds neither lights nor an environment.
+  // A shader that declares less than it reads finds neither lights nor an environment.
   virtual LightUse Light() const { return LightUse::LitMaterials; }
 };
 

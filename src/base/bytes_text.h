@@ -1,4 +1,4 @@
-// Amounts of memory in messages.
+// Formats amounts of memory for messages.
 #pragma once
 
 #include <string>

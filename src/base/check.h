@@ -1,4 +1,4 @@
-// Checks of facet's own promises. What a user or a file can get wrong is an Error, not a check.
+// Assertions about facet's own code. What a user or a file can get wrong is an Error instead.
 #pragma once
 
 #include <sstream>
@@ -17,7 +17,7 @@ template <class A, class B>
 
 }  // namespace facet
 
-// Always on, at the borders between rooms; prints both operands.
+// Enabled in all builds, at the interfaces between rooms; prints both operands.
 #define FACET_CHECK_OP(a, op, b) \
   ((a)op(b) ? void() : ::facet::CheckFailed(#a " " #op " " #b, (a), (b), __FILE__, __LINE__))
 #define FACET_CHECK(condition) \

@@ -1,4 +1,4 @@
-// What budgets go by.
+// The clock by which time budgets are measured.
 #pragma once
 
 #include <chrono>
@@ -6,11 +6,11 @@
 
 namespace facet {
 
-// Seconds since some moment, never fewer than before; any thread may ask. Tests have clocks of their own, so that what
-// they find does not depend on how busy the machine is.
+// Returns seconds since some fixed time, never decreasing; thread-safe. Tests use clocks of their own, so that their
+// results do not depend on how busy the machine is.
 using Clock = std::function<double()>;
 
-// The machine's.
+// The machine's monotonic clock.
 inline double SteadySeconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }

@@ -1,4 +1,4 @@
-// The floating-point environment that every task of the rendering path runs in.
+// The floating-point environment in which all tasks of the rendering path run.
 #pragma once
 
 #include <cfenv>
@@ -12,16 +12,17 @@
 
 namespace facet {
 
-// While alive: round to nearest, subnormals kept, no traps, on the current thread. A host that was compiled with
-// -ffast-math, or that changed the rounding mode, gets its own environment back at the end.
+// During its lifetime the current thread rounds to nearest, keeps subnormals and has no traps. Afterwards the host's
+// environment is restored, for example the one of a host that was compiled with -ffast-math or changed the rounding
+// mode.
 class FloatEnvironment {
  public:
 #if defined(__x86_64__)
   FloatEnvironment() : saved_(_mm_getcsr()) {
-    constexpr unsigned kAllMasked = 0x1F80;  // the states that a process starts with
+    constexpr unsigned kAllMasked = 0x1F80;  // the state in which a process starts
     constexpr std::uint16_t kX87AllMasked = 0x037F;
     _mm_setcsr(kAllMasked);
-    // The C library's strtod asks x87's control word which way to round.
+    // The C library's strtod rounds as the x87 control word says.
     asm volatile("fnstcw %0" : "=m"(saved_x87_));
     asm volatile("fldcw %0" : : "m"(kX87AllMasked));
   }

@@ -42,7 +42,7 @@ class Descriptor {
   int number_;
 };
 
-// No data where the system does not map the file.
+// Maps a file. The result has no data if the system cannot map it.
 Bytes Map([[maybe_unused]] int file, [[maybe_unused]] std::size_t size) {
 #ifdef __linux__
   void* const memory = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file, 0);
@@ -54,7 +54,7 @@ Bytes Map([[maybe_unused]] int file, [[maybe_unused]] std::size_t size) {
   return {};
 }
 
-// Reads up to `size` bytes, less only at the end.
+// Reads up to `size` bytes, fewer only at the end of the file.
 template <class Fail>
 std::size_t Fill(int file, std::byte* to, std::size_t size, const Fail& fail) {
   std::size_t done = 0;
@@ -68,7 +68,7 @@ std::size_t Fill(int file, std::byte* to, std::size_t size, const Fail& fail) {
   return done;
 }
 
-// What has no size to be known beforehand: a pipe or a device.
+// Reads a pipe or a device, whose size is not known beforehand.
 template <class Fail>
 Bytes ReadStream(int file, std::size_t most, const std::string& name, const Fail& fail) {
   constexpr std::size_t kFirst = std::size_t{1} << 16;
@@ -87,7 +87,7 @@ Bytes ReadStream(int file, std::size_t most, const std::string& name, const Fail
 // Whether `path`, with its links followed, is `folder` or lies in it.
 bool LiesIn(const fs::path& path, const fs::path& folder) {
   std::error_code ignored;
-  // Absolute first: of a relative name that is not there yet the canonical form is relative as well.
+  // Made absolute first, because the canonical form of a relative path that does not exist is relative.
   const fs::path real = fs::weakly_canonical(fs::absolute(path, ignored), ignored);
   const fs::path relative = real.lexically_relative(fs::canonical(folder, ignored));
   return !relative.empty() && *relative.begin() != "..";
@@ -106,7 +106,7 @@ Bytes ReadFile(const fs::path& path, const ReadOptions& options, std::uintmax_t*
   const auto fail = [&](const std::string& why, const char* hint = "") {
     throw Error(ErrorCode::NotFound, why, name, hint);
   };
-  // Not blocking: nobody may ever write to a pipe that data names.
+  // O_NONBLOCK, because opening a pipe that data names would otherwise wait for a writer.
   const Descriptor file(
       ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY | (options.regular_only ? O_NONBLOCK : 0)));
   if (file.get() < 0) {
@@ -119,7 +119,7 @@ Bytes ReadFile(const fs::path& path, const ReadOptions& options, std::uintmax_t*
   if (S_ISDIR(status.st_mode)) fail("is a folder", "give the name of a file");
   const bool regular = S_ISREG(status.st_mode);
   if (options.regular_only && !regular) fail("is not a regular file");
-  // Files of /proc say that they are empty.
+  // Files of /proc have size 0 but are not empty.
   if (!regular || status.st_size == 0) {
     Bytes bytes = ReadStream(file.get(), options.most, name, fail);
     if (file_size) *file_size = bytes.size;
@@ -138,7 +138,7 @@ Bytes ReadFile(const fs::path& path, const ReadOptions& options, std::uintmax_t*
 }
 
 fs::path DataPath(const fs::path& named_by, const fs::path& name, const fs::path& root) {
-  // A zero would end the name early for the operating system, and name another file than messages do.
+  // For the operating system a zero byte would end the name, which would then differ from the one in messages.
   if (name.native().find('\0') != std::string::npos) {
     throw Error(ErrorCode::InvalidInput, Quoted(name.string()) + " is no file's name", Printable(named_by.string()));
   }

@@ -17,15 +17,15 @@ bool IsJsonDeeperThan(std::string_view text, int levels) {
 }
 
 std::uint64_t JsonMemory(std::string_view text) {
-  // A value has 16 bytes; the rest with the allocator's own bytes. An array grows by doubling, so that each value is
-  // there thrice for a moment.
+  // A value has 16 bytes; the other sizes include the allocator's overhead. Arrays grow by doubling, so that for a
+  // moment there is room for three times the values.
   constexpr std::uint64_t kValue = 3 * 16, kMember = 2 * sizeof(std::string) + 16 + 32;
   constexpr std::uint64_t kObject = 64, kArray = 48, kString = 64, kParser = 256;
-  // The parser keeps what it has read since the last string or number began, and that string as it is meant, in buffers
-  // that double as well: each has up to two lengths, and three while it grows.
+  // The parser keeps the text of the current string or number, and the string with escapes resolved, in buffers that
+  // grow by doubling as well: each takes up to twice the length, and three times while it grows.
   constexpr std::uint64_t kBuffers = 2 + 3;
   std::uint64_t bytes = kParser + kValue + std::uint64_t(text.size());
-  std::size_t start = 0, longest = 0;  // of what is kept
+  std::size_t start = 0, longest = 0;  // of the text that is kept
   const auto keep_from = [&](std::size_t at) { longest = std::max(longest, at - start), start = at; };
   bool in_number = false;
   ForEachJsonByte(text, [&](std::size_t i) {

@@ -1,4 +1,4 @@
-// JSON from anybody, before a parser sees it.
+// Limits on JSON from unknown sources, checked before it is parsed.
 #pragma once
 
 #include <cstddef>
@@ -7,15 +7,15 @@
 
 namespace facet {
 
-// Calls take(i) for the bytes of a text that stand outside of its strings, and for the quote that each string begins
-// with, until it returns false.
+// Calls take(i) for each byte of a text that is outside of strings, and for the opening quote of each string, until it
+// returns false.
 template <class Take>
 void ForEachJsonByte(std::string_view text, const Take& take) {
   bool in_string = false;
   for (std::size_t i = 0; i < text.size(); ++i) {
     if (in_string) {
       if (text[i] == '"') in_string = false;
-      if (text[i] == '\\') ++i;  // what follows is no end
+      if (text[i] == '\\') ++i;  // an escaped quote does not end the string
       continue;
     }
     in_string = text[i] == '"';
@@ -23,16 +23,16 @@ void ForEachJsonByte(std::string_view text, const Take& take) {
   }
 }
 
-// Whether objects and arrays lie in one another more than `levels` deep. Whoever walks through values by recursion asks
-// before: 20,000 brackets in a file would overflow the stack. Takes any text.
+// Whether objects and arrays are nested more than `levels` deep. It is checked before values are visited recursively,
+// because 20,000 brackets in a file would overflow the stack. Accepts any text.
 bool IsJsonDeeperThan(std::string_view text, int levels);
 
-// What facet's own files have at most, and more than anybody's glTF files need.
+// The largest depth of facet's own files, which is more than any glTF file needs.
 inline constexpr int kMaxJsonDepth = 128;
 
-// Bytes that nlohmann::json takes for the values of a text, while it parses it and after, at most.
-// nlohmann::ordered_json takes up to twice as many: its objects are lists, and one that grows is copied with all that
-// is in it. Takes any text.
+// An upper bound on the bytes that nlohmann::json takes for the values of a text, during parsing and afterwards.
+// nlohmann::ordered_json takes up to twice as many: its objects are arrays that are copied when they grow. Accepts any
+// text.
 std::uint64_t JsonMemory(std::string_view text);
 
 }  // namespace facet

@@ -8,7 +8,7 @@
 namespace facet {
 namespace {
 
-// The length of the character that `text` begins with, 0 where it is no UTF-8 or no character that XML 1.0 knows.
+// The length in bytes of the first character of `text`; 0 if it is not UTF-8 or not allowed in XML 1.0.
 std::size_t CharacterLength(std::string_view text) {
   const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
   const std::uint32_t first = byte(0);

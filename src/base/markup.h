@@ -1,4 +1,4 @@
-// Text inside HTML and XML.
+// Escaping of text for HTML and XML.
 #pragma once
 
 #include <string>
@@ -6,8 +6,8 @@
 
 namespace facet {
 
-// `text` with the characters that mark up escaped, for content and for attributes in double quotes. Control characters,
-// which XML 1.0 cannot hold, are left out, and what is no UTF-8 becomes U+FFFD.
+// Escapes `text` for element content and for attributes in double quotes. Control characters that XML 1.0 does not
+// allow are dropped, and bytes that are not UTF-8 become U+FFFD.
 std::string Escaped(std::string_view text);
 
 // Seconds with two digits: "0.25".

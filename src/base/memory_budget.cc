@@ -35,7 +35,7 @@ void MemoryBudget::Charge(std::uint64_t count, std::uint64_t size_each, std::str
   const auto text = [](std::uint64_t amount, std::string_view use) {
     return BytesText(double(amount)) + " for " + std::string(use);
   };
-  // This one first: it is what the remedy is about.
+  // The current request comes first, since the remedy refers to it.
   std::string list = text(bytes > kMost - before ? kMost : before + bytes, what);
   for (auto other = parts_.rbegin(); other != parts_.rend(); ++other) {
     if (other->first != what) list += ", " + text(other->second, other->first);

@@ -1,5 +1,6 @@
-// What a piece of work may take in memory. Whatever grows with the input is charged here before it is allocated, so
-// that a file of a few bytes cannot ask for more than the limit: it is refused with the amount that it asks for.
+// A limit on the memory of a piece of work. All memory that grows with the input is charged to a budget before it is
+// allocated, so that a small file cannot cause allocations beyond the limit: it is refused, and the message says how
+// much it would take.
 #pragma once
 
 #include <cstdint>
@@ -11,8 +12,8 @@
 
 namespace facet {
 
-// Three quarters of what this process may have: of the machine's memory, or of the least limit that its control groups
-// and its resource limits set.
+// Three quarters of the memory that this process may use: of the machine's memory, or of the smallest limit of its
+// control groups and resource limits.
 std::uint64_t DefaultMemoryLimit();
 
 // Thread-safe.
@@ -23,23 +24,23 @@ class MemoryBudget {
   MemoryBudget(const MemoryBudget&) = delete;
   MemoryBudget& operator=(const MemoryBudget&) = delete;
 
-  // Counts `count` times `size_each` bytes for `what`, such as "textures". Throws Error(OutOfMemory) where all that is
-  // counted would be beyond the limit, and counts nothing then; the message lists it, the latest first. `where`: what
-  // asks for them. `remedy`: what takes less; may be empty.
+  // Charges `count` times `size_each` bytes for `what`, such as "textures". If the sum would exceed the limit, charges
+  // nothing and throws Error(OutOfMemory) with a message that lists all charges, the latest first. `where`: the file or
+  // object that needs the memory. `remedy`: what would take less memory; may be empty.
   void Charge(std::uint64_t count, std::uint64_t size_each, std::string_view what, const std::string& where = {},
               const std::string& remedy = {});
 
-  // Takes back as much of what was charged for `what`.
+  // Releases bytes that were charged for `what`.
   void Release(std::uint64_t bytes, std::string_view what) noexcept;
 
   std::uint64_t limit() const { return limit_; }
   std::uint64_t Left() const;
 
-  // What the current thread works under; ParallelFor passes it on to its threads. Outside of all scopes nothing is
-  // added up: each request by itself must be within DefaultMemoryLimit().
+  // The budget of the current thread; ParallelFor() passes it on to its threads. Outside of all scopes charges are not
+  // summed: each must be within DefaultMemoryLimit() by itself.
   static MemoryBudget& Current();
 
-  // Makes a budget that of the current thread for as long as the scope lives.
+  // Makes `budget` the current one of this thread during the lifetime of the scope.
   class Scope {
    public:
     explicit Scope(MemoryBudget& budget);
@@ -56,17 +57,17 @@ class MemoryBudget {
   bool adds_up_ = true;
   mutable std::mutex mutex_;
   std::uint64_t sum_ = 0;
-  std::vector<std::pair<std::string, std::uint64_t>> parts_;  // what for, and how much, in the order of first charges
+  std::vector<std::pair<std::string, std::uint64_t>> parts_;  // purpose and bytes, in the order of the first charges
 };
 
-// Charges the current budget, which must outlive it, for as long as it lives: for what is needed for a time.
+// Charges the current budget, which must outlive it, during its lifetime. For memory that is needed temporarily.
 class MemoryLease {
  public:
   MemoryLease() = default;
   MemoryLease(std::uint64_t count, std::uint64_t size_each, std::string_view what, const std::string& where = {},
               const std::string& remedy = {});
   ~MemoryLease();
-  // Takes over what has been charged for `what`.
+  // A lease of bytes that have been charged for `what` before.
   static MemoryLease Adopt(std::uint64_t bytes, std::string_view what);
   MemoryLease(MemoryLease&& other) noexcept;
   MemoryLease& operator=(MemoryLease&& other) noexcept;

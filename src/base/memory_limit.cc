@@ -1,4 +1,4 @@
-// DefaultMemoryLimit(): what the machine, or the container that this process runs in, has.
+// DefaultMemoryLimit(): the memory of the machine, or of the container in which this process runs.
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -23,15 +23,15 @@ std::uint64_t OfMachine() {
   return pages > 0 && page_size > 0 ? std::uint64_t(pages) * std::uint64_t(page_size) : kNone;
 }
 
-// "max" and files that are not there are no limit.
+// Reads a limit. "max" and missing files mean that there is none.
 std::uint64_t NumberIn(const fs::path& path) {
   std::ifstream file(path);
   std::uint64_t number = 0;
   return file >> number ? number : kNone;
 }
 
-// The least limit of a group and all that it lies in. The group's own folder is not visible in a container that shows
-// its group as the root: that is why each step towards the root counts, and none has to be there.
+// The smallest limit of a control group and its ancestors. In a container whose group appears as the root, the group's
+// own folder is not visible; therefore folders on the way may be missing.
 std::uint64_t OfGroup(const fs::path& root, const std::string& group, const char* file) {
   std::uint64_t least = NumberIn(root / file);
   fs::path folder = root;
@@ -42,8 +42,7 @@ std::uint64_t OfGroup(const fs::path& root, const std::string& group, const char
   return least;
 }
 
-// Lines of /proc/self/cgroup are "0::/GROUP" of version 2 and "NUMBER:CONTROLLERS:/GROUP" of version 1; see Linux's
-// cgroups(7).
+// /proc/self/cgroup has lines "0::/GROUP" for version 2 and "NUMBER:CONTROLLERS:/GROUP" for version 1; see cgroups(7).
 std::uint64_t OfControlGroups() {
   std::uint64_t least = kNone;
   std::ifstream groups("/proc/self/cgroup");

@@ -1,4 +1,4 @@
-// Numbers in messages and reports, in any locale.
+// Formats numbers for messages and reports, independently of the locale.
 #pragma once
 
 #include <cstdint>
@@ -6,14 +6,14 @@
 
 namespace facet {
 
-// Six significant digits, or as many as said: "0.0312", "1e-07", "inf".
+// With six significant digits, or another number of them: "0.0312", "1e-07", "inf".
 std::string ShortNumber(double value, int digits = 6);
 
-// Three digits and a unit: "41.3 ms", "1.2 GiB"; "not known" for what is no number.
+// With three digits and a unit: "41.3 ms", "1.2 GiB"; "not known" for NaN.
 std::string TimeWords(double seconds);
 std::string BytesWords(double bytes);
 
-// Three digits: "0.0312", "4.2·10⁻⁷"; "not known" for what is no number.
+// With three digits: "0.0312", "4.2·10⁻⁷"; "not known" for NaN.
 std::string ErrorWords(double error);
 
 // "10⁻⁷"

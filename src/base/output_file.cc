@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 constexpr std::string_view kTemporaryStart = ".facet-", kTemporaryEnd = ".part";
 constexpr std::size_t kRandomDigits = 16;
 
-// Of fixed length, so that a target's name may be as long as names can be.
+// Has a fixed length, so that the target's name may have the maximum length.
 std::string TemporaryName() {
   std::uint64_t random = 0;
   while (::getrandom(&random, sizeof random, 0) != sizeof random) {
@@ -50,14 +50,13 @@ bool IsTemporaryName(std::string_view name) {
 
 fs::path FolderOf(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
 
-// Removes temporary files that no process has locked: their writers were killed. Only those of this user, and of a
-// folder with very many files only what comes first, because the next picture shall not wait for that.
-// After looking at many entries a folder is left alone for a while: whoever writes a thousand files to it need not look
-// a thousand times.
+// Removes temporary files that no process has locked, as their writers were killed: only files of this user, and in a
+// folder with very many files only the first ones, so that writing does not wait for long. After a look at many entries
+// the folder is skipped for a while, so that writing a thousand files to it does not take a thousand looks.
 void RemoveAbandonedFiles(const fs::path& folder) {
   constexpr int kMostEntries = 65536, kEntriesAFile = 64;
   static std::mutex mutex;
-  static std::map<fs::path, int> owed_for;  // entries of the last look that no file has been written for since
+  static std::map<fs::path, int> owed_for;  // entries of the last look minus files written since
   std::error_code ignored;
   const fs::path key = fs::absolute(folder, ignored);
   {
@@ -85,8 +84,8 @@ void RemoveAbandonedFiles(const fs::path& folder) {
   owed_for[key] = entries;
 }
 
-// While it lives, writing beyond the limit on the size of files, or to a pipe that nobody reads, fails on this thread;
-// it would end the process otherwise.
+// During its lifetime, writing beyond the limit on file sizes, or to a pipe without readers, fails with an error on
+// this thread. Without it, a signal would end the process.
 class WritesOnlyFail {
  public:
   WritesOnlyFail() {
@@ -94,7 +93,7 @@ class WritesOnlyFail {
     ::sigemptyset(&signals_);
     ::sigpending(&pending);
     for (const int signal : {SIGXFSZ, SIGPIPE}) {
-      if (::sigismember(&pending, signal) == 0) ::sigaddset(&signals_, signal);  // an earlier one is not ours to take
+      if (::sigismember(&pending, signal) == 0) ::sigaddset(&signals_, signal);  // one pending before is kept
     }
     ::pthread_sigmask(SIG_BLOCK, &signals_, &before_);
   }
@@ -115,13 +114,13 @@ class WritesOnlyFail {
 
 enum class Kind { Plain, Special, ProcessFile };
 
-// Where a name leads to in the end, and what is there. ProcessFile: an open file of a process, such as /dev/stdout,
-// whatever that is: it cannot be replaced, only written to.
+// The file that a name finally leads to, and its kind. ProcessFile: an open file of a process, such as /dev/stdout,
+// which can only be written to and not be replaced, whatever it is.
 std::pair<fs::path, Kind> Follow(fs::path path) {
-  constexpr int kMostLinks = 40;  // as Linux
+  constexpr int kMostLinks = 40;  // the same limit as in Linux
   std::error_code ignored;
   for (int i = 0; i < kMostLinks && fs::is_symlink(fs::symlink_status(path, ignored)); ++i) {
-    // /dev/fd/3 is a link of /proc, which says "pipe:[123]" of what has no name.
+    // /dev/fd/3 is a link into /proc, whose target for a file without name is text like "pipe:[123]".
     const fs::path folder = fs::canonical(FolderOf(path), ignored);
     if (folder.string().starts_with("/proc/")) return {path, Kind::ProcessFile};
     const fs::path next = fs::read_symlink(path, ignored);
@@ -133,7 +132,7 @@ std::pair<fs::path, Kind> Follow(fs::path path) {
   return {path, plain ? Kind::Plain : Kind::Special};
 }
 
-// Of a file that is not there yet.
+// The path of a file that does not exist yet.
 fs::path Canonical(const fs::path& path) {
   std::error_code ignored;
   return fs::weakly_canonical(fs::absolute(Follow(path).first, ignored), ignored);
@@ -142,7 +141,7 @@ fs::path Canonical(const fs::path& path) {
 }  // namespace
 
 OutputFile::OutputFile(const fs::path& path, Links links) : name_(Printable(path.string())) {
-  if (path.native().find('\0') != std::string::npos) Fail(EINVAL);  // it would name another file
+  if (path.native().find('\0') != std::string::npos) Fail(EINVAL);  // the operating system would end the name there
   if (links == Links::Refuse) {
     std::error_code ignored;
     const fs::file_type type = fs::symlink_status(path, ignored).type();
@@ -180,7 +179,7 @@ void OutputFile::Open(const fs::path& target) {
       Fail(error);
     }
     unfinished_->WasMade();
-    // Another process may have taken the file for an abandoned one before it was locked.
+    // Before it was locked, another process may have removed the file as abandoned.
     ::flock(descriptor_, LOCK_EX);
     struct stat status {};
     if (::fstat(descriptor_, &status) != 0 || status.st_nlink > 0) {
@@ -227,8 +226,8 @@ void OutputFile::Commit() {
     if (::close(std::exchange(descriptor_, -1)) != 0) Fail(errno);
     return;
   }
-  // Otherwise the name may reach the disk before the bytes, and an empty file may be left after a loss of power. Some
-  // file systems report a full disk only here. Those that cannot do it say EINVAL.
+  // Without fsync the name may reach the disk before the bytes, and a loss of power may leave an empty file. Some file
+  // systems report a full disk only here. Those that do not support it return EINVAL.
   if (::fsync(descriptor_) != 0 && errno != EINVAL && errno != ENOSYS && errno != EROFS) Fail(errno);
   if (::rename(temporary_.c_str(), target_.c_str()) != 0) Fail(errno);
   unfinished_.reset();
@@ -266,7 +265,7 @@ void CheckWritable(const fs::path& path) {
     throw Error(ErrorCode::OutputFailed, "the folder " + Quoted(folder.string()) + " does not exist", name,
                 "create it first");
   }
-  // Files are written beside their place and renamed into it, so it is the folder that has to be writable.
+  // The temporary file is created in the same folder and renamed, so the folder has to be writable.
   if (::access(folder.c_str(), W_OK | X_OK) != 0) {
     throw Error(ErrorCode::OutputFailed,
                 "the folder " + Quoted(folder.string()) + " cannot be written: " + std::strerror(errno), name);

@@ -1,4 +1,4 @@
-// Files that are written: each appears under its name whole or not at all.
+// Output files, which are written atomically: each appears completely or not at all.
 #pragma once
 
 #include <cstddef>
@@ -17,21 +17,20 @@
 
 namespace facet {
 
-// A file that is being written. Its bytes go to a temporary file in the same folder, whose name nobody can foretell and
-// which is made anew or not at all; Commit() brings it to the disk and gives it the name that was asked for. Until
-// then, and when anything fails, what stood under that name stays as it was. A pipe or a device is written directly,
-// because it has no state to keep whole. Not thread-safe.
+// A file that is being written. Its bytes go to a new temporary file in the same folder with an unpredictable name.
+// Commit() flushes it to the disk and renames it to the final name. Until then, and if anything fails, an existing file
+// of that name does not change. Pipes and devices are written directly. Not thread-safe.
 //
-// Temporary files are locked for as long as they are written. One that is not locked belongs to a process that was
-// killed: whoever writes to the same folder next removes it.
+// Temporary files are locked while they are written. One without a lock was left behind by a process that was killed,
+// and is removed by the next process that writes to the folder.
 class OutputFile {
  public:
-  // What becomes of a symbolic link under the name. Follow: the file that it leads to is written, as a shell's
-  // redirection does, and the link stays; for names that users give. Refuse: links, pipes and devices are an error; for
-  // names that data or facet itself gives.
+  // How a symbolic link of that name is treated. Follow: the file that it points to is written, like a shell's
+  // redirection, and the link stays; for names that users give. Refuse: links, pipes and devices are an error; for
+  // names that come from data or from facet.
   enum class Links : std::uint8_t { Follow, Refuse };
 
-  // Throws Error(OutputFailed), like all that follows; messages name `path`.
+  // Throws Error(OutputFailed), as do all functions below; messages name `path`.
   explicit OutputFile(const std::filesystem::path& path, Links links = Links::Follow);
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
@@ -42,16 +41,16 @@ class OutputFile {
   // Replaces bytes that were written before. Not for pipes and devices.
   void Rewrite(std::uint64_t offset, std::span<const std::byte> bytes);
 
-  // All is written. Nothing may follow.
+  // Finishes the file. No other call may follow.
   void Commit();
 
  private:
   [[noreturn]] void Fail(int error) const;
   void Open(const std::filesystem::path& target);
 
-  std::string name_;                 // what messages call it
+  std::string name_;                 // for messages
   std::filesystem::path target_;     // `path` with links followed
-  std::filesystem::path temporary_;  // empty: it is written directly
+  std::filesystem::path temporary_;  // empty: the target is written directly
   std::optional<UnfinishedFile> unfinished_;
   int descriptor_ = -1;
 };
@@ -63,15 +62,15 @@ void WriteFile(const std::filesystem::path& path, std::span<const std::byte> byt
                OutputFile::Links links = OutputFile::Links::Follow);
 void WriteFile(const std::filesystem::path& path, const std::string& text);
 
-// True for a name that can be written in any order: no pipe and no device.
+// Whether the file can be written in any order, so is neither a pipe nor a device.
 bool IsPlainFile(const std::filesystem::path& path);
 
-// Throws Error(OutputFailed) when it can be seen already that `path` cannot be written: its folder does not exist or
-// may not be written to, or there is a folder of that name.
+// Throws Error(OutputFailed) if `path` obviously cannot be written: its folder does not exist or is not writable, or
+// there is a folder of that name.
 void CheckWritable(const std::filesystem::path& path);
 
-// Files, whatever their names: links of both kinds are the file that they lead to. Those that are not there are told
-// apart by their names.
+// A set of files, identified by device and inode, so that hard and symbolic links count as the file that they lead to.
+// Files that do not exist are identified by their names.
 class FileSet {
  public:
   bool Add(const std::filesystem::path& path);  // false: it was in the set

@@ -19,7 +19,7 @@ bool IsLarge(std::size_t bytes) { return bytes >= kLargeArray; }
 #ifdef __linux__
 std::size_t WholePages(std::size_t bytes) { return (bytes + kHugePage - 1) / kHugePage * kHugePage; }
 
-// Begins where a huge page does.
+// Maps zeroed memory that begins at the boundary of a huge page: maps one page too many, and unmaps what lies outside.
 void* MapPages(std::size_t bytes) {
   const std::size_t whole = WholePages(bytes);
   void* const mapped = ::mmap(nullptr, whole + kHugePage, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
@@ -46,7 +46,7 @@ void* AllocatePages(std::size_t bytes) {
   return memory;
 }
 
-// `bytes` says which kind it is.
+// `bytes` must be what was allocated: it tells whether the memory was mapped or comes from malloc.
 void FreePages(void* memory, [[maybe_unused]] std::size_t bytes) {
 #ifdef __linux__
   if (IsLarge(bytes)) {
@@ -58,7 +58,7 @@ void FreePages(void* memory, [[maybe_unused]] std::size_t bytes) {
 }
 
 #ifdef __linux__
-// What madvise answers is no matter.
+// A failure of madvise is ignored: it is a hint, and costs only speed.
 void PreferHugePages(void* memory, std::size_t bytes) {
   if (!IsLarge(bytes)) return;
   const auto begin = (reinterpret_cast<std::uintptr_t>(memory) + kHugePage - 1) / kHugePage * kHugePage;

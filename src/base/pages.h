@@ -1,4 +1,4 @@
-// Memory for large arrays that are written in full.
+// Memory for large arrays, in huge pages and without initialisation.
 #pragma once
 
 #include <cstddef>
@@ -7,22 +7,24 @@
 
 namespace facet {
 
-// From here on memory comes from the system, not from the heap: it is zero, and taken when it is first touched.
+// Arrays of this size and more, in bytes, are mapped from the operating system instead of taken from the heap: they are
+// zeroed, and occupy physical memory only where they have been touched.
 inline constexpr std::size_t kLargeArray = std::size_t{2} << 20;
 
-// Bytes in huge pages where Linux has them: the first touch of memory costs several times as much in small ones. Less
-// than kLargeArray is not zeroed. Throws std::bad_alloc.
+// Allocates memory, from kLargeArray bytes on in huge pages where Linux offers them: page faults on first touch cost
+// several times as much with small pages. Smaller allocations are not zeroed. Throws std::bad_alloc.
 void* AllocatePages(std::size_t bytes);
 void FreePages(void* memory, std::size_t bytes);
 
-// The same wish for memory that comes from elsewhere and has not been touched: a vector's between reserve() and
-// resize().
+// Asks for huge pages for memory that was allocated elsewhere and has not been touched yet, such as a std::vector's
+// between reserve() and resize().
 void PreferHugePages(void* memory, std::size_t bytes);
 
-// For a large array of AllocatePages() in which much will never be touched: a huge page is taken as a whole.
+// Asks for small pages for a large array of AllocatePages() of which much will never be touched: one touch makes a
+// whole page resident.
 void PreferSmallPages(void* memory, std::size_t bytes);
 
-// An allocator whose containers do not zero what they grow by: resize() leaves numbers unset.
+// An allocator for containers of trivial types whose resize() leaves added elements uninitialised.
 template <class T>
 struct PageAllocator {
   using value_type = T;

@@ -12,8 +12,8 @@
 #include "base/float_environment.h"
 #include "base/memory_budget.h"
 
-// TBB's library is not compiled for the thread sanitizer, which then misses that a task starts after it was made and
-// ends before it was waited for. It is told so here; tasks of one call stay unordered among themselves.
+// TBB's library is not compiled with the thread sanitizer, which therefore does not see that a task starts after it was
+// created and ends before the wait for it returns. These annotations tell it; tasks of one call stay unordered.
 #if defined(__SANITIZE_THREAD__)
 #define FACET_THREAD_SANITIZER 1
 #elif defined(__has_feature)
@@ -33,7 +33,7 @@
 namespace facet {
 namespace {
 
-// Whether the thread is at work for facet in an arena of facet's, where all tasks are facet's own.
+// Whether the thread is running a task in an arena of facet's, where all tasks are facet's own.
 thread_local bool in_own_arena = false;
 
 class InOwnArena {
@@ -47,10 +47,10 @@ class InOwnArena {
   const bool before_;
 };
 
-// How many threads an arena may have. TBB gives as many as there are cores; more are a request of the caller's, and
-// serve tests of determinism. TBB says on standard error when it does not grant a request, so that none is made that it
-// would not. Its limit is the least of all controls that live: ours stays, since one for each call would lower what
-// another call has just asked for.
+// The number of threads that an arena can have. By default TBB allows one per core; callers may ask for more, for
+// example in tests of determinism. TBB prints to standard error if it does not grant a request, so only those are made
+// that it will grant. Its limit is the smallest of all existing controls. Ours is never destroyed, since one for each
+// call would lower the limit of other calls.
 int Granted(int threads) {
   if (threads <= 0) return tbb::task_arena::automatic;
   using tbb::global_control;
@@ -97,8 +97,9 @@ void ParallelFor(std::size_t count, std::size_t grain, const std::function<void(
         [&](const tbb::blocked_range<std::size_t>& range) {
           FACET_ACQUIRE(&started);
           const InOwnArena own;
-          // Isolated: while it waits for the last pieces of an inner loop, a thread must not begin a piece of an outer
-          // one, or the memory of both would be in use at once. Whoever waits for the outermost loop helps with any.
+          // Isolated, so that a thread that waits for the last pieces of an inner loop does not begin a piece of an
+          // outer one, which would need the memory of both at once. A thread that waits for the outermost loop takes
+          // any piece.
           tbb::this_task_arena::isolate([&] {
             for (std::size_t piece = range.begin(); piece != range.end(); ++piece) run(piece);
           });
@@ -106,7 +107,8 @@ void ParallelFor(std::size_t count, std::size_t grain, const std::function<void(
         },
         tbb::simple_partitioner());
   };
-  // In an arena of the host's a thread that waits might begin one of the host's tasks, whose locks it may hold.
+  // Isolated in an arena of the host's: otherwise a waiting thread might begin one of the host's tasks while it holds a
+  // lock that the task needs.
   in_own_arena ? loop() : tbb::this_task_arena::isolate(loop);
   FACET_ACQUIRE(&ended);
 }

@@ -1,4 +1,4 @@
-// Work spread over threads. The only place that knows the thread library.
+// Parallel loops. This is the only room that uses the thread library.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 namespace facet {
 
-// The most threads that a setting may ask for.
+// The largest number of threads that settings may ask for.
 inline constexpr int kMaxThreads = 1024;
 
 // Throws Error(InvalidUsage) unless `threads` is 0 (one per core) or a number up to kMaxThreads.
@@ -23,13 +23,13 @@ inline void CheckThreads(int threads) {
 // from it uses that arena. Exceptions of `body` are passed on. Throws as CheckThreads().
 void RunWithThreads(int threads, const std::function<void()>& body);
 
-// How many threads the current arena has.
+// The number of threads of the current arena.
 int CurrentThreadCount();
 
 // Calls body(begin, end) for consecutive pieces of [0, count) of at most `grain` items each (grain >= 1), in any order
 // and on any thread, with the floating-point environment pinned (see float_environment.h) and under the caller's memory
-// budget. Piece boundaries are multiples of `grain`: they depend on the arguments alone. The first exception is passed
-// on when all have stopped.
+// budget. Piece boundaries are multiples of `grain`, so they depend on the arguments only. The first exception is
+// passed on after all pieces have stopped.
 void ParallelFor(std::size_t count, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& body);
 
 }  // namespace facet

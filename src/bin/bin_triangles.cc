@@ -13,10 +13,10 @@ namespace facet {
 namespace {
 
 struct TileRange {
-  int x0, y0, x1, y1;  // inclusive; empty when x1 < x0 or y1 < y0
+  int x0, y0, x1, y1;  // inclusive; empty if x1 < x0 or y1 < y0
 };
 
-// The corners' positions differ only in the bits below a tile's.
+// Whether the triangle lies in one tile: its vertices' coordinates differ only in the bits below the tile's index.
 bool InOneTile(int tile_bits_fx8, const TriangleRecord& r) {
   const std::int32_t x = (r.x_fx8[0] ^ r.x_fx8[1]) | (r.x_fx8[0] ^ r.x_fx8[2]);
   const std::int32_t y = (r.y_fx8[0] ^ r.y_fx8[1]) | (r.y_fx8[0] ^ r.y_fx8[2]);
@@ -29,7 +29,7 @@ TileRange TilesOf(const TileGrid& grid, int tile_bits_fx8, const TriangleRecord&
           std::min(GreatestOf(r.y_fx8) >> tile_bits_fx8, grid.rows - 1)};
 }
 
-// False when the whole tile lies outside one edge. Conservative: exact at the tile's outer corners.
+// False if the whole tile lies outside of one edge. Conservative, as it tests the tile's corners.
 bool MayTouch(const TileGrid& grid, const TriangleRecord& r, int tile_x, int tile_y) {
   const std::int64_t size = std::int64_t{grid.tile_size} * kSubpixelScale;
   const std::int64_t left = tile_x * size, top = tile_y * size;
@@ -46,8 +46,8 @@ struct Entry {
   std::uint32_t tile, record;
 };
 
-// Sorts by tile, keeping the order within each: by digits, from the lowest, of as many bits as suit the number of
-// entries, so that time is linear in it. `scratch` has the same size.
+// Sorts by tile with a stable radix sort, whose digits have as many bits as suit the number of entries, in linear time.
+// `scratch` has the same size.
 void SortByTile(std::vector<Entry>& entries, std::vector<Entry>& scratch) {
   if (entries.empty()) return;
   const auto by_tile = [](const Entry& a, const Entry& b) { return a.tile < b.tile; };
@@ -67,13 +67,14 @@ void SortByTile(std::vector<Entry>& entries, std::vector<Entry>& scratch) {
   }
 }
 
-// Of a chunk's entries while they are listed and sorted. What nearly all chunks have is not worth the counting.
+// Charges the memory of a chunk's entries while they are listed and sorted. The amount that nearly every chunk needs is
+// not charged, to save time.
 class EntryCharge {
  public:
   void Admit(std::size_t entries) {
     if (entries <= admitted_) return;
     const std::size_t more = std::max(entries, 2 * admitted_) - admitted_;
-    // A list that grows has two copies of what it holds for a moment; sorting needs another.
+    // A growing vector has two copies for a moment, and sorting needs another.
     leases_.emplace_back(more, 3 * sizeof(Entry), kTileListsCharge, "", "use larger tiles");
     admitted_ += more;
   }
@@ -109,7 +110,7 @@ void BinChunk(const TileGrid& grid, TriangleChunk& chunk) {
         if (!test || MayTouch(grid, r, x, y)) entries.push_back({static_cast<std::uint32_t>(y * grid.columns + x), i});
       }
     }
-    if (entries.size() > std::numeric_limits<std::uint32_t>::max()) {  // which counts them below; 32 GiB of them
+    if (entries.size() > std::numeric_limits<std::uint32_t>::max()) {  // the index type; 32 GiB of them
       throw Error(ErrorCode::OutOfMemory, "the triangles of the scene touch too many tiles", {},
                   "use larger tiles, or render a smaller picture");
     }
@@ -119,13 +120,13 @@ void BinChunk(const TileGrid& grid, TriangleChunk& chunk) {
   chunk.tiles.clear();
   chunk.begin.clear();
   chunk.entries.resize(entries.size());
-  // A tile that finds its records scattered waits for memory longer than it computes.
+  // With scattered records, tiles would spend more time waiting for memory than computing.
   constexpr std::uint32_t kNowhere = ~0u;
   std::vector<std::uint32_t> place(chunk.records.size(), kNowhere);
   std::vector<TriangleRecord> ordered;
   ordered.reserve(chunk.records.size());
   const TriangleRecord* records = chunk.records.data();
-  std::uint32_t count = 0;  // of `ordered`, whose size() is a division
+  std::uint32_t count = 0;  // the size of `ordered`, since size() needs a division
   const auto put = [&](std::uint32_t record) {
     std::uint32_t& at = place[record];
     if (at == kNowhere) at = count++, ordered.push_back(records[record]);
@@ -141,7 +142,7 @@ void BinChunk(const TileGrid& grid, TriangleChunk& chunk) {
     }
     chunk.entries[i] = put(e.record);
   }
-  for (std::uint32_t i = 0; count < place.size(); ++i) put(i);  // those that touch no tile
+  for (std::uint32_t i = 0; count < place.size(); ++i) put(i);  // records that touch no tile come last
   chunk.records.swap(ordered);
   chunk.begin.push_back(static_cast<std::uint32_t>(entries.size()));
   MemoryBudget::Current().Charge(

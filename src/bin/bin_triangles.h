@@ -1,4 +1,4 @@
-// Which tiles each triangle touches.
+// Binning: finds the tiles that each triangle touches.
 #pragma once
 
 #include "frame/geometry.h"
@@ -6,10 +6,10 @@
 
 namespace facet {
 
-// Fills chunk.tiles, chunk.begin and chunk.entries from chunk.records, and puts these in the order in which tiles come
-// to them, so that a tile reads neighbours. Entries of a tile keep the order that the records had. What the chunk takes
-// is charged to the current memory budget. Throws Error(OutOfMemory).
-inline constexpr const char* kTileListsCharge = "lists of triangles for tiles";  // what it is charged for
+// Fills chunk.tiles, chunk.begin and chunk.entries from chunk.records, and reorders the records so that those of a tile
+// are close together in memory. The entries of a tile are in submission order. Memory is charged to the current memory
+// budget. Throws Error(OutOfMemory).
+inline constexpr const char* kTileListsCharge = "lists of triangles for tiles";  // purpose of the charge
 void BinChunk(const TileGrid& grid, TriangleChunk& chunk);
 
 }  // namespace facet

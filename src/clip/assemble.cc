@@ -16,8 +16,8 @@ struct Corner {
   double depth;
 };
 
-// `size`: the picture's, along that axis. Nothing is left beyond the guard band but half a line's width, and what
-// rounding leaves there at distances of next to nothing.
+// Snaps a coordinate. `size`: of the image along that axis. Nothing lies beyond the guard band except for half the
+// width of lines, and for rounding errors at tiny distances, so the value is clamped.
 std::int32_t Snap(double pixels, int size) {
   const double middle = size * 0.5, reach = kGuardBand + 1.0;
   return static_cast<std::int32_t>(std::nearbyint(std::clamp(pixels, middle - reach, middle + reach) * kSubpixelScale));
@@ -30,7 +30,7 @@ class Assembler {
       : view_(view), drawable_(drawable), vertices_(vertices.data() + drawable.vertex_base), chunk_(chunk),
         samples_(samples) {}
 
-  // Small ones in groups; where a group has others, that group one by one.
+  // Small triangles are set up in groups. A group that has other triangles is assembled one by one.
   void Triangles() {
     std::vector<std::uint32_t> unrolled;
     TriangleRun run;
@@ -42,7 +42,7 @@ class Assembler {
     run.samples = samples_;
     const auto advance = [&](std::uint32_t n) { run.corners += 3 * std::size_t{n}, run.first_primitive += n; };
     const std::uint32_t end = chunk_.first_primitive + chunk_.primitive_count;
-    chunk_.records.reserve(chunk_.primitive_count);  // what is not written of it takes no memory
+    chunk_.records.reserve(chunk_.primitive_count);  // unused capacity takes no physical memory
     while (run.first_primitive < end) {
       run.count = end - run.first_primitive;
       const SmallTriangles small = SetUpSmallTriangles(run, chunk_.records);
@@ -75,7 +75,8 @@ class Assembler {
     for (int i = 2; i < count; ++i) Emit(screen[0], screen[i - 1], screen[i], primitive, RecordKind::Triangle, true);
   }
 
-  // A line is the rectangle one pixel wide around it (Vulkan 1.3 specification, "Rectangular Line Segments").
+  // A line is drawn as the rectangle of width 1 pixel around it (Vulkan 1.3 specification, "Rectangular Line
+  // Segments").
   void Line(std::uint32_t primitive) {
     const auto v = PrimitiveVertices(*drawable_.geometry, primitive);
     const std::int32_t c0 = Code(v[0]), c1 = Code(v[1]);
@@ -96,11 +97,11 @@ class Assembler {
          primitive, RecordKind::Line, clipped);
   }
 
-  // A point is the square of one pixel around it.
+  // A point is drawn as the square of side 1 pixel around it.
   void Point(std::uint32_t primitive) {
     const auto v = PrimitiveVertices(*drawable_.geometry, primitive);
     const std::int32_t c = Code(v[0]);
-    // Half a pixel of a point outside the picture may reach into it, but its centre decides, as in OpenGL ES.
+    // The square of a point outside the image may reach into it, but the centre decides, as in OpenGL ES.
     if (Rejected(c, c, c)) return;
     if ((c & kOutClip) != 0) return void(++chunk_.clipped);
     const glm::dvec3 h = Homogeneous(v[0]);
@@ -112,7 +113,7 @@ class Assembler {
   }
 
  private:
-  // Three indices for each of the chunk's triangles: a list's own, or made in `unrolled`.
+  // Three indices for each of the chunk's triangles: those of a triangle list, or computed into `unrolled`.
   const std::uint32_t* Corners(std::vector<std::uint32_t>& unrolled) const {
     const Primitive& geometry = *drawable_.geometry;
     if (geometry.topology == Topology::Triangles && !geometry.indices.empty()) {
@@ -153,14 +154,14 @@ class Assembler {
     return {Snap(pixel.x, view_.width), Snap(pixel.y, view_.height), depth};
   }
 
-  // A vertex that the clipper did not touch keeps the place that the vertex stage gave it: the neighbours that were not
-  // clipped have it there. Where that stage found it outside, it gave it none, and no neighbour has one either.
+  // A vertex that clipping did not change keeps the position that the vertex stage computed, because neighbouring
+  // triangles that are not clipped use it. For vertices that must be clipped that stage computes no position.
   Corner Project(const ClipVertex& v, const std::array<std::uint32_t, 3>& source) const {
     if (v.source >= 0 && (v.outcode & kOutClip) == 0) return Vertex(source[std::size_t(v.source)]);
     return At(Pixel(v.position), Depth(v.position));
   }
 
-  // Half a pixel wide on each side: whether it is seen from the front does not matter.
+  // Emits a quad as two triangles. Facing does not matter, since it stands for a line or a point.
   void Quad(const std::array<Corner, 4>& q, std::uint32_t primitive, RecordKind kind, bool clipped = false) {
     Emit(q[0], q[1], q[2], primitive, kind, clipped);
     Emit(q[0], q[2], q[3], primitive, kind, clipped);

@@ -18,13 +18,14 @@ namespace HWY_NAMESPACE {
 
 static_assert(kMaxLanes <= kTriangleGroup);
 
-// One corner of each triangle of a group.
+// One vertex of each triangle of a group.
 struct CornerLanes {
   Int x, y, outcode;
   Float depth;
 };
 
-// Copied side by side and read as lanes: gathering number by number takes several times as long.
+// Copies whole vertices to adjacent memory and transposes them, because gathers of single components take several times
+// as long.
 HWY_INLINE CornerLanes LoadCorners(const ScreenVertex* vertices, Int index) {
   alignas(64) std::int32_t place[kMaxLanes], numbers[4 * kMaxLanes];
   Store(index, place);
@@ -38,9 +39,9 @@ HWY_INLINE CornerLanes Select(Mask m, const CornerLanes& a, const CornerLanes& b
   return {Select(m, a.x, b.x), Select(m, a.y, b.y), a.outcode, Select(m, a.depth, b.depth)};
 }
 
-// Which samples of the CoverageSquare from (first_x, first_y) on a triangle covers, by the rasterizer's edge functions
-// and fill rule, as TriangleRecord::covered has them. Its corners lie clockwise, less than 4 pixels from one another:
-// every term is below 2^22. (Other lanes wrap, and are not asked.)
+// The samples of the CoverageSquare from (first_x, first_y) on that triangles cover, by the rasterizer's edge functions
+// and fill rule, as bits of TriangleRecord::covered. Corners are clockwise and less than 4 pixels apart, so that every
+// term is below 2^22. (Lanes with other triangles overflow, and their results are not used.)
 HWY_INLINE Int CoveredSamples(const Int (&x_fx8)[3], const Int (&y_fx8)[3], Int first_x, Int first_y, int samples) {
   const Int x0 = ShiftLeft<kSubpixelBits>(first_x), y0 = ShiftLeft<kSubpixelBits>(first_y);
   EdgeFunction<Int> edge[3];  // from the square's corner
@@ -79,7 +80,7 @@ struct BoxLanes {
         low_y(Min(Min(y[0], y[1]), y[2])), high_y(Max(Max(y[0], y[1]), y[2])) {}
 };
 
-// SampleCoverage of the lanes `asked`; of others, none.
+// The SampleCoverage of the lanes in `asked`; none for the others.
 struct CoverageLanes {
   Mask some;
   Int covered;
@@ -102,8 +103,8 @@ HWY_INLINE CoverageLanes FindCoverage(const Int (&x_fx8)[3], const Int (&y_fx8)[
   return {some & !(few & (covered == Int(0))), covered};
 }
 
-// Rates of depth over the screen, in double, from corners relative to the first. The same sequence as the one for
-// single triangles (assemble.cc).
+// Depth gradients over the screen, in double, from corners relative to the first. The operations are the same, in the
+// same order, as those for single triangles (assemble.cc).
 HWY_INLINE void DepthPlanes(const std::int32_t* x1, const std::int32_t* y1, const std::int32_t* x2,
                             const std::int32_t* y2, const std::int32_t* area, const float (*depth)[kMaxLanes],
                             double* depth_dx, double* depth_dy) {

@@ -8,26 +8,26 @@
 
 namespace facet {
 
-// Light, proportional, Rec. 709 primaries.
+// Linear light, Rec. 709 primaries.
 struct LinearRgb {
   float r = 0.0f, g = 0.0f, b = 0.0f;
 };
 
-// The codes of an 8-bit sRGB picture.
+// The codes of an 8-bit sRGB image.
 struct Srgb8 {
   std::uint8_t r = 0, g = 0, b = 0;
   friend bool operator==(const Srgb8&, const Srgb8&) = default;
 };
 
-// Encoded to linear and back, computed in double and rounded. Below 0 the linear segment goes on, above 1 the power
-// does; NaN stays NaN.
+// From encoded to linear and back, computed in double and rounded. The linear segment continues below 0, the power
+// segment above 1; NaN stays NaN.
 float SrgbToLinear(float encoded);
 float LinearToSrgb(float linear);
 
-// Linear light of the 256 codes of a byte.
+// The linear light of all 256 codes.
 const std::array<float, 256>& Srgb8ToLinearTable();
 
-// The code whose value is nearest to the encoded `linear`: exactly, not to a few bits. Below 0 and NaN: 0; above 1: the
+// The code that is nearest to the encoded value of `linear`, without any error. Below 0 and for NaN: 0; above 1: the
 // largest code.
 std::uint8_t LinearToSrgb8(float linear);
 std::uint16_t LinearToSrgb16(float linear);
@@ -35,16 +35,17 @@ std::uint16_t LinearToSrgb16(float linear);
 LinearRgb ToLinear(Srgb8 color);
 Srgb8 ToSrgb8(LinearRgb color);
 
-// What kernels need for exact codes. thresholds[k] is the smallest float whose nearest code is k or more;
-// thresholds[0] = 0, and one infinity follows the last.
+// Tables for exact encoding in kernels. thresholds[k] is the smallest float whose nearest code is at least k;
+// thresholds[0] = 0, and an infinity follows the last.
 struct SrgbTables {
   static constexpr int kBucketShift = 16;                 // of a float's bits: 128 buckets an octave
   static constexpr std::int32_t kInBucket = (1 << kBucketShift) - 1;  // the bits that tell a bucket's floats apart
   static constexpr std::int32_t kFirstBits = 0x39000000;  // 2^-13; all below has code 0
   static constexpr int kBucketCount = (0x3F800000 - kFirstBits) >> kBucketShift;
   std::array<float, 257> thresholds8;
-  // No bucket holds two thresholds. The code at the start of the bucket times 2^16, plus as much as makes adding a float's
-  // place in the bucket carry into the code from the bucket's threshold on: (ramps8[bucket] + place) >> 16 is the code.
+  // No bucket contains two thresholds. ramps8[bucket] is the code at the start of the bucket times 2^16, plus an
+  // offset: adding a float's position in the bucket carries into the code exactly from the threshold on, so that
+  // (ramps8[bucket] + position) >> 16 is the code.
   std::array<std::int32_t, kBucketCount> ramps8;
 };
 const SrgbTables& GetSrgbTables();

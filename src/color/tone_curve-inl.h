@@ -1,5 +1,5 @@
-// Tone curves: exposed linear light, Rec. 709, to display-linear [0, 1]. Each takes any input: what is negative or NaN
-// counts as 0, and light is cut at 2^40, where every curve has long reached its end.
+// Tone curves: exposed linear light, Rec. 709, to display-linear [0, 1]. They accept any input: negative values and NaN
+// count as 0, and light is clamped to 2^40, where all curves have long reached their limit.
 
 #if defined(FACET_COLOR_TONE_CURVE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef FACET_COLOR_TONE_CURVE_INL_H_
@@ -33,7 +33,7 @@ HWY_INLINE Vec3<T> Transform(const float (&m)[9], Vec3<T> a) {
           T(m[6]) * a.x + T(m[7]) * a.y + T(m[8]) * a.z};
 }
 
-// No curve: cut at 1.
+// No curve: clamps to 1.
 template <class T>
 HWY_INLINE Vec3<T> ClampCurve(Vec3<T> light) {
   return Clamp(light, T(0.0f), T(1.0f));
@@ -117,7 +117,7 @@ HWY_INLINE Vec3<T> NeutralCurve(Vec3<T> light) {
   const Vec3<T> scaled = c * (new_peak / safe_peak);
   const T white = one - one / (desaturation * (peak - new_peak) + one);
   const Vec3<T> compressed = Mix(scaled, Vec3<T>{new_peak, new_peak, new_peak}, white);
-  // The last bits of the arithmetic may pass the ends.
+  // Rounding may exceed the ends of the range.
   return Clamp(Select(bright, compressed, c), T(0.0f), one);
 }
 

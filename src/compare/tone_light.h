@@ -1,4 +1,4 @@
-// Light on its way to a display, as FLIP and SSIM look at it.
+// Conversions of light for display, as FLIP and SSIM need them.
 #pragma once
 
 #include <array>
@@ -6,7 +6,7 @@
 
 namespace facet {
 
-// A pixel of straight RGBA over a grey, as double; one that is not finite counts as black.
+// A pixel of straight RGBA composited over grey, in double. A pixel that is not finite counts as black.
 template <class T>
 std::array<double, 3> OverBackdrop(const T* rgba, double backdrop) {
   for (int channel = 0; channel < 4; ++channel) {

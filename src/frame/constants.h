@@ -1,4 +1,4 @@
-// Numbers that more than one stage must agree on: fixed point, blocks, sample positions.
+// Constants that several stages must agree on: fixed point, blocks, depth, interpolation planes, sample positions.
 #pragma once
 
 #include <array>
@@ -8,44 +8,48 @@
 namespace facet {
 
 // --- Fixed point -----------------------------------------------------------------------------------------------------
-// Screen positions are snapped to 1/256 pixel ("fx8"), x to the right and y down, origin at the picture's top left
+// Screen positions are snapped to 1/256 pixel ("fx8"), x to the right and y down, origin at the image's top left
 // corner. Pixel (i, j) has its centre at (i + 1/2, j + 1/2).
 inline constexpr int kSubpixelBits = 8;
 inline constexpr int kSubpixelScale = 1 << kSubpixelBits;
 
-// Pictures reach 2^14 pixels. Triangles are clipped to a guard band of 2^14 pixels around the picture's centre, so that
-// snapped positions stay within 3/2 * 2^14 pixels of the origin, and two of them differ by at most 2^15 pixels.
+// Images have at most 2^14 pixels a side. Triangles are clipped to a guard band that reaches 2^14 pixels from the
+// image's centre, so snapped positions stay within 3/2 * 2^14 pixels of the origin, and two differ by at most 2^15
+// pixels.
 inline constexpr int kMaxPictureSize = 1 << 14;
 inline constexpr int kGuardBand = 1 << 14;  // pixels, from the centre
-inline constexpr std::int64_t kMaxDelta_fx8 = std::int64_t{2 * kGuardBand} << kSubpixelBits;  // of an edge
+inline constexpr std::int64_t kMaxDelta_fx8 = std::int64_t{2 * kGuardBand} << kSubpixelBits;  // along an edge
 
 // --- Blocks -------------------------------------------------------------------------------------------------------------
-// Coverage is decided in blocks of 8 x 8 pixels, with 64-bit edge functions at the block's corner and 32-bit ones inside;
-// for triangles of few pixels, where they are set up (TriangleRecord::covered).
+// Coverage is computed in blocks of 8 x 8 pixels, with 64-bit edge functions at the block's corner and 32-bit ones
+// inside it. The coverage of triangles of few pixels is computed already when they are set up
+// (TriangleRecord::covered).
 inline constexpr int kBlockSize = 8;
 inline constexpr int kBlockPixels = kBlockSize * kBlockSize;
 
-// Samples lie on a grid of 1/16 pixel. Inside a block an edge function is a * x + b * y + c with x and y in sixteenths,
-// |a|, |b| <= kMaxDelta_fx8 and 0 <= x, y < 128. Where it is not of one sign over the whole block, its absolute value is
-// below 2 * kMaxDelta_fx8 * 128, which must fit 32 bits:
+// Samples lie on a grid of 1/16 pixel. Inside a block an edge function is a * x + b * y + c with x and y in sixteenths
+// of a pixel, |a|, |b| <= kMaxDelta_fx8 and 0 <= x, y < 128. Where an edge crosses the block, the function's absolute
+// value is below 2 * kMaxDelta_fx8 * 128, which must fit 32 bits:
 inline constexpr int kSampleGrid = 16;
 static_assert(kMaxDelta_fx8 * (kBlockSize * kSampleGrid - 1) * 2 <= std::int64_t{INT32_MAX},
               "32-bit edge functions overflow inside a block");
-// At the block's corner it is a product of two differences of snapped positions, with room to spare in 64 bits:
+// At the block's corner it is a sum of products of two differences of snapped positions, which must fit 64 bits:
 static_assert((kMaxDelta_fx8 * 2) * (kMaxDelta_fx8 * 2) < INT64_MAX / 4, "64-bit edge functions overflow");
 
 // --- Depth ----------------------------------------------------------------------------------------------------------
-// The least distance of a perspective view, and the most of an orthographic one: a depth, 1 / distance or -distance, is
-// no larger than kMostDistance, so that it and its rates over the screen, extrapolated over a triangle and a block, are
-// floats. Rates are kept below kSteepestDepth where a triangle may be larger than small_triangles.h has it.
+// Distances from the eye are kept at or above kLeastDistance in perspective views, and at or below kMostDistance in
+// orthographic ones. A depth (1 / distance or -distance) is then no larger than kMostDistance, and does not overflow a
+// float when it is extrapolated over a triangle and a block. Depth gradients are clamped to kSteepestDepth, except for
+// the triangles of small_triangles.h, which are too small to need it.
 inline constexpr double kLeastDistance = 1e-28, kMostDistance = 1.0 / kLeastDistance;
 inline constexpr double kSteepestDepth = 1e33;  // per pixel
 static_assert(kMostDistance + 2.0 * kSteepestDepth * (2 * kGuardBand + kBlockSize) <
               double{std::numeric_limits<float>::max()});
 
 // --- Planes -------------------------------------------------------------------------------------------------------------
-// Interpolation planes are rounded to float relative to an anchor: the pixel's position with its low six bits cleared.
-// It does not depend on the tile's size, so neither do the bits of the picture; tiles lie within one anchor's square.
+// Interpolation planes are stored in float relative to an anchor: the pixel's position with its low six bits cleared. A
+// tile always lies within one anchor's square, and the anchor does not depend on the tile size, so the image's bits do
+// not depend on it either.
 inline constexpr int kAnchorSize = 64;
 inline constexpr int kMaxTileSize = kAnchorSize;
 
@@ -68,7 +72,7 @@ constexpr const SamplePosition* SamplePattern(int samples) {
   return samples == 1 ? kSamples1.data() : samples == 2 ? kSamples2.data() : samples == 4 ? kSamples4.data() : kSamples8.data();
 }
 
-// The outermost samples of a pixel, in fx8 from its corner.
+// The least and largest sample coordinates of a pixel, in fx8 from its top left corner.
 struct SampleReach {
   int low_x, high_x, low_y, high_y;
 };
@@ -85,17 +89,18 @@ constexpr SampleReach ReachOf(int samples) {
   return reach;
 }
 
-// A triangle that spans the samples of no more than `side` x `side` pixels is known by what it covers, in one number.
+// Triangles whose samples lie within `side` x `side` pixels store their coverage as one 32-bit mask.
 struct CoverageSquare {
   int side;
-  int stride_bits;  // of pixels from one row to the next in that number
+  int stride_bits;  // log2 of the distance from one row of pixels to the next in the mask, in pixels
 };
 
 constexpr CoverageSquare CoverageSquareOf(int samples) {
   return samples <= 2 ? CoverageSquare{3, 2} : CoverageSquare{2, 1};
 }
 
-// The first column (row) of pixels with a sample at or after a position; `high`: the reach's.
+// The first column (or row) of pixels that has a sample at or after a position; `high`: SampleReach::high_x (or
+// high_y).
 constexpr std::int32_t FirstPixel(std::int32_t from_fx8, int high) {
   return (from_fx8 + kSubpixelScale - 1 - high) >> kSubpixelBits;
 }

@@ -1,4 +1,4 @@
-// One tile's working memory: who is visible at each sample, and the fragments that are to be shaded.
+// The buffers of one tile: the nearest triangle at each sample, and the fragments to be shaded.
 #pragma once
 
 #include <cstdint>
@@ -12,11 +12,11 @@ namespace facet {
 
 inline constexpr std::int32_t kNoRecord = -1;
 
-// Fragments: (pixel, triangle) pairs, in the order in which they were found. What Resize() adds is unset.
+// Fragments, which are (pixel, triangle) pairs, as a structure of arrays. Resize() leaves added entries uninitialised.
 struct FragmentList {
   PageVector<std::uint16_t> pixel;    // y * tile_size + x within the tile
-  PageVector<std::int32_t> record;    // number of the triangle record within the tile, in submission order
-  PageVector<std::uint8_t> samples;   // bit s: covers sample s
+  PageVector<std::int32_t> record;    // id of the triangle within the tile; ids follow submission order
+  PageVector<std::uint8_t> samples;   // bit s is set where sample s is covered
 
   std::size_t Size() const { return pixel.size(); }
   void Clear() { Resize(0); }
@@ -32,19 +32,20 @@ struct ShadedFragments {
   void Resize() { for (auto* v : {&red, &green, &blue, &alpha}) v->resize(list.Size()); }
 };
 
-// Depth and triangle of every sample. Sample s of pixel (x, y) stands at Index(x, y, s): blocks of 8 x 8 pixels, in
-// each one plane of 64 after the other for each sample, so that lanes read neighbours.
+// Depth and triangle id of every sample. The arrays are ordered by blocks of 8 x 8 pixels; a block holds one plane of
+// 64 entries for each sample, so that SIMD lanes read adjacent entries. Sample s of pixel (x, y) is at Index(x, y, s).
 struct TileBuffers {
-  int x0 = 0, y0 = 0;          // picture position of the tile's top left pixel
-  int width = 0, height = 0;   // pixels of it inside the picture
+  int x0 = 0, y0 = 0;          // position of the tile's top left pixel in the image
+  int width = 0, height = 0;   // pixels of the tile that lie inside the image
   int tile_size = 0, samples = 0;
   std::vector<float> depth;
   std::vector<std::int32_t> record;
-  // A depth that every sample of a block reaches: what is no nearer than it cannot be seen there. One entry a block.
+  // Hierarchical Z: for each block a lower bound of its samples' depths. Depth grows towards the viewer, so a triangle
+  // whose depth is nowhere larger than the bound is hidden in the whole block.
   std::vector<float> farthest;
 
-  // For code that is compiled for one sample apart, so that it costs what it would if there were never more: kSamples,
-  // or as many as there are where that is 0.
+  // The number of samples, known at compile time in code that is instantiated for kSamples = 1, so that frames without
+  // multisampling do not pay for it. 0: `samples`.
   template <int kSamples>
   int Samples() const { return kSamples != 0 ? kSamples : samples; }
 
@@ -54,7 +55,7 @@ struct TileBuffers {
     return BlockIndex(block_x, block_y) * std::size_t(samples * kBlockPixels);
   }
   std::size_t Index(int x, int y, int sample) const {
-    // Of numbers without sign, quotient and remainder are a shift and a mask.
+    // Unsigned, so that quotient and remainder become a shift and a mask.
     const unsigned column = static_cast<unsigned>(x), row = static_cast<unsigned>(y);
     const unsigned in_block = row % kBlockSize * kBlockSize + column % kBlockSize;
     return BlockOffset(static_cast<int>(column / kBlockSize), static_cast<int>(row / kBlockSize)) +
@@ -62,8 +63,8 @@ struct TileBuffers {
   }
 };
 
-// Depth of a record within one block: c + dx * x + dy * y, pixels from the block's corner, kept within [low, high].
-// Computed in one way by all who need it, so that they agree to the bit.
+// The depth of a triangle within one block: c + dx * x + dy * y, clamped to [low, high], with x and y in pixels from
+// the block's corner. All stages compute it by these functions, so that their depths agree to the bit.
 struct BlockDepth {
   float c, dx, dy, low, high;
 };
@@ -75,7 +76,7 @@ inline BlockDepth MakeBlockDepth(const TriangleRecord& r, int block_x_px, int bl
           static_cast<float>(r.depth_dy), r.depth_min, r.depth_max};
 }
 
-// `x`, `y`: pixels from the block's corner, of a sample.
+// `x`, `y`: position of a sample, in pixels from the block's corner.
 inline float DepthAt(const BlockDepth& d, float x, float y) {
   const float z = (d.c + d.dx * x) + d.dy * y;
   const float raised = z > d.low ? z : d.low;

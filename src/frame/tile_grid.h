@@ -1,4 +1,4 @@
-// How the picture is cut into tiles.
+// The division of the image into tiles, and the triangles of each.
 #pragma once
 
 #include <cstdint>
@@ -16,13 +16,13 @@ struct TileGrid {
 
 TileGrid MakeTileGrid(int width, int height, int tile_size);
 
-// A run of one chunk's entries that belong to one tile.
+// The entries of one chunk that belong to one tile.
 struct TileRun {
   std::uint32_t chunk;
-  std::uint32_t begin, end;  // in TriangleChunk::entries
+  std::uint32_t begin, end;  // a range of TriangleChunk::entries
 };
 
-// For each tile the runs of all chunks, in chunk order: opaque and alpha-tested ones, and blended ones.
+// For each tile the runs of all chunks, in chunk order, by alpha mode: opaque, alpha-tested (masked) and blended.
 struct TileLists {
   std::vector<std::vector<TileRun>> opaque, masked, blended;
 };

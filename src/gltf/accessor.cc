@@ -14,7 +14,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "buffers are read as they lie, and glTF's are little-endian");
 
-// Elements that no buffer holds cost a file nothing, so they are bounded by themselves.
+// A limit for elements that no buffer contains, since they take no space in a file.
 constexpr std::size_t kMaxUnbackedElements = std::size_t(1) << 24;
 
 template <class T>
@@ -74,7 +74,7 @@ void ConvertUnsigned(const std::byte* from, std::size_t stride, std::size_t coun
   }
 }
 
-// Calls visit(which of the range's elements, the bytes that replace it) for each of a sparse accessor.
+// Calls visit(index within the range, new bytes) for each element of the range that a sparse accessor replaces.
 template <class Visit>
 void ForEachReplaced(const AccessorView& view, Range range, const Visit& visit) {
   if (!view.sparse_indices) return;
@@ -103,7 +103,7 @@ void SetShape(const std::string& name, const Place& place, AccessorInfo& info) {
   info.size = column * static_cast<std::size_t>(info.columns);
 }
 
-// Throws where elements reach past `available` bytes.
+// Throws if elements reach beyond `available` bytes.
 void CheckRun(std::size_t available, std::size_t offset, std::size_t count, std::size_t size, std::size_t stride,
               const std::string& shortage, const Place& place) {
   if (count == 0) return;
@@ -220,7 +220,7 @@ void AccessorReader::ReadSparse(const Json& sparse, std::size_t element_size, co
   view.sparse_indices = std::make_shared<const std::vector<std::uint32_t>>(std::move(targets));
 }
 
-// Keeps the order of equal indices.
+// Sorts stably, so that the order of equal indices does not change.
 void AccessorReader::SortSparse(std::size_t element_size, const Place& place, std::vector<std::uint32_t>& targets,
                                 Bytes& values) {
   const std::size_t count = targets.size();

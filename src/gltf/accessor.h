@@ -1,4 +1,4 @@
-// Accessors: typed, bounds-checked reading of what buffer views hold.
+// Accessors: typed, bounds-checked reading of buffer views.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ constexpr std::size_t SizeOfComponent(ComponentType type) {
   }
 }
 
-// An accessor as the file describes it, its sparse part aside.
+// An accessor as the file describes it, without its sparse part.
 struct AccessorInfo {
   int view = -1;  // -1: all zeros
   std::size_t offset = 0, count = 0;
@@ -32,7 +32,7 @@ struct AccessorInfo {
   std::size_t size = 0;  // bytes of an element, with the padding of small matrices
 };
 
-// Elements that have been checked to lie within their bytes.
+// The elements of an accessor, which have been checked to lie within `bytes`.
 struct AccessorView {
   Bytes bytes;             // the first element starts here; null data: all zeros
   std::size_t stride = 0;  // bytes from one element to the next
@@ -41,7 +41,8 @@ struct AccessorView {
   int components = 1;  // 1 to 4 for vectors; 4, 9 or 16 for matrices
   bool is_matrix = false;
   bool normalized = false;
-  // Elements replaced: their indices, which never decrease (of equal ones the last counts), and as many elements.
+  // Sparse elements: the indices of the replaced elements, which never decrease (of equal ones the last counts), and as
+  // many new elements.
   std::shared_ptr<const std::vector<std::uint32_t>> sparse_indices;  // may be null
   Bytes sparse_values;
 };
@@ -59,24 +60,24 @@ class AccessorReader {
     accessors_.resize(count);
   }
 
-  // Throws Error(InvalidInput) where the file's description is broken.
+  // Throws Error(InvalidInput) if the file's description is broken.
   AccessorInfo Describe(int accessor);
   std::size_t Count(int accessor) { return Describe(accessor).count; }
 
-  // Throws Error(InvalidInput) when an element lies outside of its bytes, Error(OutOfMemory) when the accessor claims
-  // more elements than a file that does not hold them may.
+  // Throws Error(InvalidInput) if an element lies outside of its bytes, and Error(OutOfMemory) if the accessor has too
+  // many elements that no buffer contains.
   const AccessorView& View(int accessor);
 
-  // Warns of what is wrong with accessors that nobody has asked for, without reading what they hold.
+  // Warns of errors in accessors that were not used, without reading their elements.
   void CheckUnused();
 
-  // The first min(components, view.components) numbers of each element of `range` (within view.count), as float:
-  // integers that are normalised by glTF 2.0's section 3.11 (max(c / 127, -1) and its like), others by value. What is
-  // not finite becomes 0, with one warning at `place`. `out` is `components` floats an element; what an element lacks
-  // is left as it is.
+  // Reads the first min(components, view.components) components of each element of `range` (within view.count) as
+  // float. Normalised integers are converted as in glTF 2.0's section 3.11 (max(c / 127, -1) and so on), others by
+  // value. Values that are not finite become 0, with one warning at `place`. `out` has `components` floats per element;
+  // components that the accessor lacks are not written.
   void ReadFloats(const AccessorView& view, Range range, int components, float* out, const Place& place);
 
-  // Of scalars or vectors of unsigned integers, without normalisation.
+  // Reads scalars or vectors of unsigned integers, without normalisation.
   void ReadUnsigned(const AccessorView& view, Range range, int components, std::uint32_t* out);
 
  private:
@@ -88,7 +89,7 @@ class AccessorReader {
   AccessorView MakeView(std::size_t accessor, const Place& place);
   void ReadSparse(const Json& sparse, std::size_t element_size, const Place& place, AccessorView& view);
   void SortSparse(std::size_t element_size, const Place& place, std::vector<std::uint32_t>& targets, Bytes& values);
-  // `count` elements of `size` bytes, `stride` apart, from `offset` of a buffer view on.
+  // Returns `count` elements of `size` bytes, `stride` apart, from `offset` of a buffer view on.
   Bytes Run(int view, std::size_t offset, std::size_t count, std::size_t size, std::size_t stride, const Place& place);
 
   Context& context_;

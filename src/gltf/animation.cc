@@ -6,12 +6,12 @@
 namespace facet::gltf {
 namespace {
 
-// As many as the mesh has weights, see ReadMeshes.
+// The number of morph targets, which is the number of the mesh's weights (see ReadMeshes).
 std::size_t TargetCount(const Scene& scene, int mesh) {
   return mesh < 0 ? 0 : scene.meshes[static_cast<std::size_t>(mesh)].weights.size();
 }
 
-// Keeps the keys whose times do not decrease.
+// Drops the keys whose times decrease.
 void DropStaleKeys(AnimationChannel& channel, std::size_t numbers_per_key, const Place& place) {
   std::size_t kept = 0, jumps = 0;
   for (std::size_t key = 0; key < channel.times.size(); ++key) {
@@ -53,11 +53,11 @@ Interpolation InterpolationOf(const Json& sampler, const Place& place) {
   return Interpolation::Linear;
 }
 
-// What a channel moves; nothing (perhaps with a warning) where that is nothing.
+// The target of a channel; nothing, perhaps with a warning, if the channel has no effect.
 struct Target {
   int node = -1;
   PathShape shape{AnimationPath::Translation, 3};
-  std::size_t width = 3;  // numbers a key
+  std::size_t width = 3;  // components of a key
 };
 
 class AnimationReader {
@@ -88,7 +88,7 @@ class AnimationReader {
   std::optional<Target> ReadTarget(const Json& object, const Place& place) const {
     Target target;
     target.node = IndexAt(object, "node", scene_.nodes.size(), "nodes", place);
-    if (target.node < 0) return std::nullopt;  // for extensions, says the specification
+    if (target.node < 0) return std::nullopt;  // reserved for extensions by the specification
     const std::string path = RequireString(object, "path", place);
     const auto shape = ShapeOf(path);
     if (!shape) Fail(Place(place, "path"), "\"" + path + "\" is unknown");
@@ -161,7 +161,7 @@ class AnimationReader {
   const Json& object_;
   const Place& place_;
   const Json* samplers_ = nullptr;
-  std::set<std::pair<int, AnimationPath>> taken_;  // by the channels so far
+  std::set<std::pair<int, AnimationPath>> taken_;  // targets of the channels so far
 };
 
 }  // namespace

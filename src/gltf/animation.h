@@ -6,8 +6,8 @@
 
 namespace facet::gltf {
 
-// Needs the scene's nodes and meshes. Channels that cannot be read or move nothing are left out with a warning; keys
-// whose time decreases are dropped with one.
+// Reads all animations. The scene's nodes and meshes must have been read. Channels that cannot be read or have no
+// effect are ignored with a warning; keys whose time decreases are dropped with a warning.
 void ReadAnimations(Context& context, AccessorReader& reader, Scene& scene);
 
 }  // namespace facet::gltf

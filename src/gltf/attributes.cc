@@ -88,7 +88,7 @@ std::vector<glm::vec4> AttributeSource::Color(const std::string& semantic, float
 std::vector<glm::vec4> AttributeSource::Weights(const std::string& semantic) {
   AccessorView view = View(semantic, 4, 4);
   const Place place(place_, semantic);
-  if (view.type != ComponentType::F32) view.normalized = true;  // the only reading that makes sense
+  if (view.type != ComponentType::F32) view.normalized = true;  // integers make sense only if normalised
   context_.Charge(range_.count, sizeof(glm::vec4), place);
   std::vector<glm::vec4> out(range_.count, glm::vec4(0.0f));
   reader_.ReadFloats(view, range_, 4, &out.data()->x, place);

@@ -1,4 +1,4 @@
-// The attributes of one primitive, wherever they are stored, and the arrays of the Scene that they become.
+// Conversion of a primitive's attributes, plain or compressed, to the arrays of the Scene.
 #pragma once
 
 #include <functional>
@@ -12,10 +12,10 @@
 
 namespace facet::gltf {
 
-// A primitive's (or morph target's) attributes by semantic; every array that it gives has `range.count` entries.
+// The attributes of a primitive (or morph target) by semantic. All arrays that it returns have `range.count` entries.
 class AttributeSource {
  public:
-  // `draco` may be null. `vertex_count` is what every attribute must have.
+  // `draco` may be null. `vertex_count`: the number of elements that all attributes must have.
   AttributeSource(Context& context, AccessorReader& reader, const std::map<std::string, int>& attributes,
                   const DracoMesh* draco, std::size_t vertex_count, Range range, const Place& place)
       : context_(context),
@@ -27,19 +27,18 @@ class AttributeSource {
         place_(place) {}
 
   bool Has(const std::string& semantic) const { return attributes_.count(semantic) != 0; }
-  // Checked to have as many elements as the primitive has vertices, and as many components as are needed; what there is
-  // beyond is left out with a warning.
+  // Checks that there are as many elements as vertices, and enough components. Surplus ones are ignored with a warning.
   AccessorView View(const std::string& semantic, int least_components, int most_components);
 
   std::vector<glm::vec2> Vec2(const std::string& semantic);
   std::vector<glm::vec3> Vec3(const std::string& semantic, int least = 3, int most = 3);
   std::vector<glm::vec4> Vec4(const std::string& semantic);
-  // RGB gets `alpha`. Integers are normalised even where the file forgot to say so.
+  // Colours without alpha get `alpha`. Integers are normalised even if the file does not say so.
   std::vector<glm::vec4> Color(const std::string& semantic, float alpha);
   std::vector<glm::vec4> Weights(const std::string& semantic);
   std::vector<glm::u16vec4> Joints(const std::string& semantic);
 
-  // Warns of semantics that glTF does not know or facet does not read.
+  // Warns of semantics that glTF does not define or facet does not read.
   void WarnOfOthers(bool is_target);
 
  private:
@@ -52,12 +51,12 @@ class AttributeSource {
   const Place& place_;
 };
 
-// The accessors of an object "attributes", or of a morph target, by semantic. An index that names none is an error
-// where `is_needed`(semantic), otherwise the attribute is left out with a warning.
+// The accessors of an object "attributes", or of a morph target, by semantic. An invalid index is an error if
+// `is_needed`(semantic); otherwise the attribute is ignored with a warning.
 std::map<std::string, int> ReadAttributeList(Context& context, const Json& object, const Place& place,
                                              const std::function<bool(const std::string&)>& is_needed);
 
-// The n of "NAME_n", or -1. Sets beyond kMaxSets are not read.
+// The n of "NAME_n", or -1. Sets from kMaxSets on are not read.
 inline constexpr int kMaxSets = 16;
 int SetOf(const std::string& semantic, const char* name);
 

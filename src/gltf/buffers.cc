@@ -23,7 +23,7 @@ BufferView ReadDescription(const Json& object, std::size_t buffer_count, const P
   return view;
 }
 
-// What there is of `length` bytes from `offset` on, where there are `size` in all.
+// The existing part of `length` bytes from `offset` on, in a buffer of `size` bytes.
 std::size_t Available(std::size_t size, std::size_t offset, std::size_t length) {
   return offset > size ? 0 : std::min(length, size - offset);
 }
@@ -136,7 +136,7 @@ std::string BufferStore::Shortage(int index) {
   return buffers_[static_cast<std::size_t>(Describe(index).buffer)].shortage;
 }
 
-// Nothing where the view is not packed, or where its packed data is damaged and plain data stands beside it.
+// Nothing if the view is not compressed, or if its compressed data is damaged and there is an uncompressed fallback.
 std::optional<Bytes> BufferStore::Unpack(std::size_t index, const Place& place) {
   const Json* compression = ExtensionOf(context_.Object("bufferViews", index), kMeshopt, place);
   if (!compression) return std::nullopt;

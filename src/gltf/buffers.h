@@ -1,4 +1,4 @@
-// Buffers and buffer views: from the GLB, data URIs or files; plain or compressed by meshoptimizer.
+// Buffers and buffer views, from the GLB, data URIs or files, plain or compressed by meshoptimizer.
 #pragma once
 
 #include <optional>
@@ -15,28 +15,28 @@ struct BufferView {
   std::size_t stride = 0;  // 0: tightly packed
 };
 
-// Buffers are read when something asks for them: one that nothing needs may be broken, or not there.
+// Buffers are read when they are needed, so unused ones may be broken or missing.
 class BufferStore {
  public:
   BufferStore(Context& context, std::optional<Bytes> bin);
 
-  // Warns of a view that reaches past its buffer. Throws Error(InvalidInput) where the file's description is broken.
+  // Warns of a view that reaches past the end of its buffer. Throws Error(InvalidInput) if the description is broken.
   const BufferView& Describe(int view);
 
-  // The bytes of a buffer view, decompressed where it is compressed (once). Of a view that reaches past its buffer
-  // those that are there. Throws Error (NotFound, InvalidInput).
+  // The bytes of a buffer view; a compressed one is decompressed once. Of a view that reaches past the end of its
+  // buffer, the existing bytes. Throws Error (NotFound, InvalidInput).
   const Bytes& Read(int view);
 
-  // How many bytes Read() would give, as far as the file's descriptions say.
+  // The number of bytes that Read() would return, according to the file's descriptions.
   std::size_t Size(int view);
 
   // False for a view of a buffer without data (a placeholder that no extension fills).
   bool HasData(int view);
 
-  // Why a view may have fewer bytes than it says; empty where it has them all.
+  // Why a view has fewer bytes than it says; empty if it has all.
   std::string Shortage(int view);
 
-  // Warns of what is wrong with views and buffers that nobody has asked for.
+  // Warns of errors in views and buffers that were not used.
   void CheckUnused();
 
  private:
@@ -44,11 +44,11 @@ class BufferStore {
     std::optional<std::size_t> declared_length;
     bool has_data = false;  // false: a placeholder, or one of meshopt's fallbacks
     std::optional<Bytes> bytes;
-    std::optional<Error> error;  // why it cannot be read
+    std::optional<Error> error;  // why the buffer cannot be read
     std::string shortage;
   };
   struct View {
-    std::optional<BufferView> description;  // where something has asked for it
+    std::optional<BufferView> description;  // set when the view is first used
     std::optional<Bytes> bytes;
   };
 

@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-// "perspective" or "orthographic": what the camera says, or what it has a lens for.
+// "perspective" or "orthographic": the type that the camera states, or else the one for which it has parameters.
 std::string TypeOf(const Json& object, const Place& place) {
   const std::string type = LenientString(object, "type", place).value_or("");
   if (type == "perspective" || type == "orthographic") return type;
@@ -28,7 +28,7 @@ double RequireNumber(const Json& object, const char* key, const Place& place) {
   return *number;
 }
 
-// What says how a camera looks must be right; where it cuts near and far, and the picture's shape, have defaults.
+// Fields of view and magnifications must be valid; the near and far planes and the aspect ratio have defaults.
 Camera ReadCamera(const Json& object, const Place& place) {
   Camera camera;
   const std::string type = TypeOf(object, place);

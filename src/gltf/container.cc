@@ -30,7 +30,7 @@ bool BeginsAsJson(std::string_view text) {
   return text.starts_with('{');
 }
 
-// Just behind the bracket that closes the JSON object at the start of `text`; nothing where none does.
+// The position after the bracket that closes the JSON object at the start of `text`; nothing if there is none.
 std::optional<std::size_t> EndOfJson(std::string_view text) {
   std::int64_t depth = 0;
   std::optional<std::size_t> end;
@@ -42,7 +42,7 @@ std::optional<std::size_t> EndOfJson(std::string_view text) {
   return end;
 }
 
-// True for what can be the type of a chunk: letters, perhaps with zeros behind them.
+// Whether a word can be the type of a chunk: letters, which zeros may follow.
 bool IsName(std::uint32_t type) {
   bool at_end = false, valid = true;
   for (int i = 0; i < 4; ++i, type >>= 8) {
@@ -53,7 +53,7 @@ bool IsName(std::uint32_t type) {
   return valid;
 }
 
-// True for what ends in the bracket that closes an object, but for padding.
+// Whether text ends, apart from padding, with the bracket that closes an object.
 bool EndsAsJson(std::string_view text) {
   const std::size_t last = text.find_last_not_of(std::string_view(" \t\r\n\0", 5));
   return last != std::string_view::npos && text[last] == '}';
@@ -95,8 +95,8 @@ class GlbReader {
     return text.substr(std::min(at + 4, text.size()), 4) == kBin;
   }
 
-  // The size of the JSON chunk that `rest` begins with: what its header says where that can be, otherwise where the
-  // text itself ends. With a warning where these differ.
+  // The size of the JSON chunk at the start of `rest`: as its header says, if that is possible, otherwise up to the end
+  // of the JSON text. Warns if these differ.
   std::size_t JsonSize(std::string_view rest) {
     const std::size_t length = ReadU32(file_.data + kHeaderSize);
     is_cut_ = length > rest.size();
@@ -104,13 +104,13 @@ class GlbReader {
         length <= rest.size() && EndsAsJson(rest.substr(0, length)) && (length == rest.size() || IsBin(rest, length));
     if (is_likely) return length;
     const std::optional<std::size_t> end = EndOfJson(rest);
-    if (!end && length <= rest.size()) return length;  // whoever parses it says what is wrong
+    if (!end && length <= rest.size()) return length;  // the parser will report the error
     if (!end) {
       Fail(place_, "the JSON chunk's length is " + Count(length) + ", and the file ends after " + Count(rest.size()),
            "fetch the file again");
     }
     std::size_t size = std::clamp(length, *end, rest.size());
-    constexpr std::size_t kMostPadding = 7;  // 3 bytes in a file that keeps the rules
+    constexpr std::size_t kMostPadding = 7;  // at most 3 bytes in a valid file
     for (std::size_t padding = 0; padding <= kMostPadding; ++padding) {
       if (!IsBin(rest, *end + padding)) continue;
       size = *end + padding;
@@ -120,7 +120,7 @@ class GlbReader {
     return size;
   }
 
-  // Whether chunks of any types, one after the other, reach from there to the end that the header gives.
+  // Whether a sequence of chunks of any types reaches from there exactly to the end that the header states.
   bool AreChunks(std::size_t at) const {
     const std::size_t end = std::min<std::size_t>(declared_, file_.size);
     while (at + kChunkHeaderSize <= end && ReadU32(file_.data + at + 4) != 0) {
@@ -129,12 +129,12 @@ class GlbReader {
     return at == declared_;
   }
 
-  // Moves `at` behind the chunk that begins there; false where none does.
+  // Moves `at` to the end of the chunk that begins there; false if there is no chunk.
   bool ReadChunk(std::size_t& at) {
     const std::size_t length = ReadU32(file_.data + at), left = file_.size - at - kChunkHeaderSize;
     const std::uint32_t type = ReadU32(file_.data + at + 4);
     const bool is_bin = type == kBinChunk && !container_.bin;
-    // Behind the end that the header gives, only what is missing is looked for.
+    // Beyond the end that the header states, only missing chunks are searched.
     if (!is_bin && (at >= declared_ || length > left || !(IsName(type) || AreChunks(at)))) return false;
     const std::size_t size = std::min(length, left);
     if (is_bin) {
@@ -143,7 +143,7 @@ class GlbReader {
       container_.bin = file_.Slice(bin_at_, size);
     } else if (type == kBinChunk || type == kJsonChunk) {
       Warn("ignored: a second JSON or BIN chunk");
-    }  // chunks of other types are for extensions, and skipped as the specification says
+    }  // chunks of other types belong to extensions, and the specification says to skip them
     at += kChunkHeaderSize + size;
     bin_end_ = is_bin ? at : bin_end_;
     return true;
@@ -155,7 +155,7 @@ class GlbReader {
     if (declared_ != end + (declared_ == file_.size ? rest : 0)) {
       Warn("the header's length is " + Count(declared_) + ", and the file has " + std::to_string(file_.size));
     }
-    // What follows the BIN chunk belongs to it where a buffer needs it: that its length is wrong is as likely.
+    // Bytes after the BIN chunk belong to it if a buffer needs them, since the chunk's length may be wrong.
     if (rest > 0 && bin_end_ == end) container_.bin = file_.Slice(bin_at_, file_.size - bin_at_);
     is_cut_ = is_cut_ || declared_ > file_.size || rest > 0;
     if (is_cut_ && !container_.bin) container_.bin = file_.Slice(file_.size, 0);

@@ -10,13 +10,14 @@
 namespace facet::gltf {
 
 struct Container {
-  std::string_view json;     // in the file's bytes
-  std::optional<Bytes> bin;  // the GLB's BIN chunk, if there is one; empty where the file ends before it
+  std::string_view json;     // points into the file's bytes
+  std::optional<Bytes> bin;  // the GLB's BIN chunk, if there is one; empty if the file ends before it
 };
 
-// Told apart by the first bytes, not by the name. A GLB whose lengths are wrong is read as far as its chunks can be
-// made out, with warnings that name the numbers. Source: glTF 2.0, section 4, "GLB File Format Specification".
-// Throws Error(InvalidInput, Unsupported): what is neither is called by its name where that is known.
+// Finds the parts of a file. The first bytes tell the containers apart, not the name. A GLB with wrong lengths is read
+// as far as its chunks can be recognised, with warnings that state the lengths. Source: glTF 2.0, section 4, "GLB File
+// Format Specification". Throws Error(InvalidInput, Unsupported). For a file that is neither, the message names its
+// kind if that is known.
 Container OpenContainer(const Bytes& file, const Place& place);
 
 }  // namespace facet::gltf

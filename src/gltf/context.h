@@ -1,4 +1,4 @@
-// What every part of the loader is handed: the document, the bounds, and where to complain.
+// The context that all parts of the loader share: the document, its memory budget, and the warnings.
 #pragma once
 
 #include <filesystem>
@@ -12,7 +12,7 @@
 
 namespace facet::gltf {
 
-// True for what is no fault of the part of the file that is being read.
+// Whether an error is not caused by the part of the file that is being read.
 inline bool IsFatal(const Error& error) {
   return error.code() == ErrorCode::OutOfMemory || error.code() == ErrorCode::Internal;
 }
@@ -27,9 +27,9 @@ struct Context {
   Context(const Context&) = delete;
   Context& operator=(const Context&) = delete;
 
-  // Calls `read`, which throws Error for what it cannot read. Where the picture shows that, the error stands; elsewhere
-  // it becomes a warning of `consequence`, what `read` charged is given back, and the result is false. What is fatal
-  // stands everywhere.
+  // Calls `read`, which throws Error for what it cannot read. If the part is visible (`shown`) or the error is fatal,
+  // the error is passed on. Otherwise it becomes a warning of `consequence`, the memory that `read` charged is
+  // released, and the result is false.
   template <class Read>
   bool Try(bool shown, const Place& where, const char* consequence, const Read& read) {
     const std::size_t charged = charged_;
@@ -44,8 +44,8 @@ struct Context {
     }
   }
 
-  // The same for what the picture does not show in any case. In a file with very many failures the rest is not tried
-  // any more, because a million errors take too long.
+  // The same for parts that are never visible. After very many failures further parts are not read at all, because a
+  // million errors would take too long.
   template <class Read>
   bool TryUnused(const Place& where, const char* consequence, const Read& read) {
     constexpr std::size_t kMostFailures = 10000;
@@ -55,15 +55,16 @@ struct Context {
     return false;
   }
 
-  // Charges what the scene takes to the memory budget. What many parts of a file share, or no buffer holds, is bounded
-  // by a multiple of the file's size as well: a few kilobytes must not unfold to gigabytes. Throws Error(OutOfMemory).
+  // Charges memory of the scene to the memory budget. Data that many parts of a file share, or that no buffer contains,
+  // is also limited to a multiple of the file's size, so that a few kilobytes cannot expand to gigabytes. Throws
+  // Error(OutOfMemory).
   void Charge(std::size_t count, std::size_t size_each, const Place& where);
-  // What has been charged since Charged() was `before` stays for good, whatever becomes of the part that asked for it:
-  // others use it too.
+  // Makes all charges permanent that were made since Charged() was `before`, because other parts use that memory too.
+  // It is not released if the part that is being read fails.
   void KeepSince(std::size_t before);
   std::size_t Charged() const { return charged_; }
 
-  // Of a list at the root.
+  // An object of a list at the root.
   const Json& Object(const char* list, std::size_t index) const { return document.root[list][index]; }
   bool IsRequired(std::string_view extension) const;
   bool IsUsed(std::string_view extension) const;
@@ -76,16 +77,16 @@ struct Context {
   Document document;
   LoadReport report;
   FileStore files;
-  std::vector<std::vector<std::size_t>> primitives_read;  // by mesh: which of the file's became its primitives
+  std::vector<std::vector<std::size_t>> primitives_read;  // by mesh: indices in the file of its primitives
 
  private:
   const ExtensionUse* FindExtension(std::string_view name) const;
 
   void GiveBack(std::size_t charged_before);
 
-  std::size_t charged_ = 0;   // bytes, of those that may be given back
-  std::size_t kept_ = 0;      // of the others
-  std::size_t failures_ = 0;  // of parts that the picture does not show
+  std::size_t charged_ = 0;   // bytes that may be released
+  std::size_t kept_ = 0;      // bytes charged permanently
+  std::size_t failures_ = 0;  // of invisible parts
 };
 
 }  // namespace facet::gltf

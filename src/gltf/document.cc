@@ -15,7 +15,7 @@ constexpr const char* kLists[] = {"accessors", "animations", "bufferViews", "buf
   Fail(place, "glTF " + version + " is not supported", "convert it to glTF 2.0", ErrorCode::Unsupported);
 }
 
-// "2.0" as asset[key] says it, also where that is a number, or "2" or "2.0.1"; empty when absent.
+// The version in asset[key], such as "2.0"; numbers, "2" and "2.0.1" are accepted too. Empty if absent.
 std::string ReadVersion(const Json& asset, const char* key, const Place& asset_place) {
   const Json* value = Find(asset, key);
   if (!value) return {};

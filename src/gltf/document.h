@@ -1,4 +1,4 @@
-// A glTF file's JSON.
+// The JSON of a glTF file.
 #pragma once
 
 #include <cstddef>
@@ -10,9 +10,9 @@
 
 namespace facet::gltf {
 
-// The lists at the root hold objects; what these hold is checked where it is read.
+// The parsed JSON. The lists at the root are known to contain objects, whose members are checked where they are read.
 struct Document {
-  MemoryLease memory;  // for as long as the values live
+  MemoryLease memory;  // of the JSON values
   Json root;
   std::string version;  // asset.version, "2.0" or a later one that can be read as 2.0
 

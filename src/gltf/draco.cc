@@ -37,14 +37,14 @@ std::optional<ComponentType> ComponentOf(draco::DataType type) {
   }
 }
 
-// What the connectivity's header claims. Draco takes memory for that before it looks at the data.
+// The sizes in the connectivity's header. Draco allocates memory by them before it reads the data.
 struct Claims {
   std::uint32_t faces = 0;
-  std::uint8_t attribute_decoders = 0;  // each with connectivity of its own
+  std::uint8_t attribute_decoders = 0;  // each with its own connectivity
 };
 
-// Reads ahead; nothing where the data is cut short. Source: Google, "Draco bitstream specification" (2.2), sections
-// "Header", "Metadata" and "Connectivity", and for what older versions wrote, the decoder of Draco 1.5.
+// Reads the header in advance; nothing if the data is truncated. Source: Google, "Draco bitstream specification" (2.2),
+// sections "Header", "Metadata" and "Connectivity", and for what older versions wrote, the decoder of Draco 1.5.
 std::optional<Claims> ReadClaims(const draco::DracoHeader& header, draco::DecoderBuffer buffer) {
   const unsigned version = header.version_major * 256u + header.version_minor;
   buffer.set_bitstream_version(static_cast<std::uint16_t>(version));
@@ -69,22 +69,23 @@ std::optional<Claims> ReadClaims(const draco::DracoHeader& header, draco::Decode
   return claims;
 }
 
-// Throws Error(InvalidInput) where the data cannot hold what it claims. The lease is what decoding it takes.
+// Throws Error(InvalidInput) if the data is too short for the sizes that it states. The lease covers the memory for
+// decoding.
 MemoryLease CheckClaims(const draco::DracoHeader& header, const draco::DecoderBuffer& rest, const Place& place) {
-  constexpr std::uint64_t kFacesPerByte = 4096;  // far beyond what its entropy coder reaches on real meshes
+  constexpr std::uint64_t kFacesPerByte = 4096;  // far more than its entropy coder reaches for real meshes
   const std::optional<Claims> claims = ReadClaims(header, rest);
   if (!claims) Fail(place, "Draco data is cut short");
   const auto bytes = static_cast<std::uint64_t>(rest.remaining_size());
   if (claims->faces / kFacesPerByte > bytes) {
     Fail(place, std::to_string(bytes) + " bytes of Draco data claim " + std::to_string(claims->faces) + " triangles");
   }
-  // Measured as the most that the decoder took, for meshes and for data that claims too much.
+  // The measured maximum of the decoder, for meshes and for data with wrong sizes.
   constexpr std::uint64_t kPerFace = 128, kPerFaceAndDecoder = 48;
   return MemoryLease(claims->faces, kPerFace + kPerFaceAndDecoder * claims->attribute_decoders, "Draco data",
                      place.Full());
 }
 
-// Charges attributes when the decoder announces them: it takes memory for as many points as are claimed.
+// Charges attributes when the decoder announces them, because it allocates memory for the stated number of points.
 class ChargedMesh final : public draco::Mesh {
  public:
   explicit ChargedMesh(std::string where) : where_(std::move(where)) {}
@@ -102,7 +103,7 @@ class ChargedMesh final : public draco::Mesh {
   std::vector<MemoryLease> leases_;
 };
 
-// What draco::Decoder does, with the decoder at hand afterwards: it holds the integers that the floats were made from.
+// Does what draco::Decoder does, but keeps the decoder, which has the integers from which the floats were made.
 draco::Status DecodeMesh(const Bytes& packed, const Place& place, draco::Mesh& mesh) {
   draco::DecoderBuffer buffer;
   buffer.Init(reinterpret_cast<const char*>(packed.data), packed.size);

@@ -20,13 +20,13 @@
 namespace facet::gltf {
 namespace {
 
-// Integers or floats, without gaps.
+// Whether an attribute has integers or floats without gaps between elements.
 struct Values {
   std::byte* data = nullptr;
   std::size_t count = 0, components = 0;
 };
 
-// Nothing where the attribute is not as Draco makes those that it quantises.
+// Nothing if the attribute does not have the form of Draco's quantised attributes.
 Values ValuesOf(draco::PointAttribute& attribute, bool integers) {
   const draco::DataType type = attribute.data_type();
   const bool fits = integers ? type == draco::DT_INT32 || type == draco::DT_UINT32 : type == draco::DT_FLOAT32;

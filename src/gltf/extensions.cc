@@ -13,7 +13,7 @@ bool IsSupported(const std::string& extension) {
       "EXT_mesh_gpu_instancing", "EXT_meshopt_compression", "EXT_texture_webp", "KHR_draco_mesh_compression",
       "KHR_lights_punctual", "KHR_materials_variants", "KHR_mesh_quantization", "KHR_node_visibility",
       "KHR_texture_transform",
-      // Only say something about the data; leaving them aside is all that there is to do.
+      // These only describe the data, so ignoring them is enough to support them.
       "FB_ngon_encoding", "KHR_xmp", "KHR_xmp_json_ld"};
   bool supported = std::find(std::begin(kSupported), std::end(kSupported), extension) != std::end(kSupported);
   const auto compare = [&](const char* name) {

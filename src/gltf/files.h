@@ -1,4 +1,4 @@
-// The files that a glTF file names: found by their URIs, read once each.
+// The files that a glTF file refers to by URIs. Each is read once.
 #pragma once
 
 #include <filesystem>
@@ -15,16 +15,16 @@ namespace facet::gltf {
 
 class FileStore {
  public:
-  // `path`: the glTF file. What is found and read is listed in `report`. All three must outlive it.
+  // `path`: the glTF file. Files that are found and read are listed in `report`. All three must outlive the store.
   FileStore(const std::filesystem::path& path, const LoadOptions& options, LoadReport& report)
       : path_(path), options_(options), report_(report) {}
 
-  // The file that a relative reference names, by the rule for paths from data (DataPath): the decoded name, or where
-  // only these exist the name as it is written, or with slashes in place of backslashes (a warning at `place`). It need
-  // not exist. Throws Error(InvalidInput) for what is no relative reference and for what leads out of the folder.
+  // Resolves a relative reference by the rule for paths from data (DataPath): to the decoded name, or, if only these
+  // exist, to the name as written or with slashes for backslashes (with a warning at `place`). The file need not exist.
+  // Throws Error(InvalidInput) for anything but a relative reference, and for paths that lead out of the folder.
   std::filesystem::path Find(const std::string& uri, const Place& place);
 
-  // The bytes of a file that Find() gave. Throws Error: NotFound, OutOfMemory.
+  // The bytes of a file that Find() returned. Throws Error: NotFound, OutOfMemory.
   Bytes Read(const std::filesystem::path& path);
 
  private:
@@ -35,7 +35,7 @@ class FileStore {
   LoadReport& report_;
   std::map<std::string, std::filesystem::path> found_;  // by URI
   std::set<std::filesystem::path> listed_;
-  std::map<std::filesystem::path, Bytes> read_;  // by the name without links
+  std::map<std::filesystem::path, Bytes> read_;  // by canonical path
 };
 
 }  // namespace facet::gltf

@@ -1,8 +1,8 @@
-// Typed access to JSON members that anyone may have written. A member that is absent is no error unless the name says
-// Require. One that is not what it should be:
-// - XAt and RequireX throw Error(InvalidInput) with the place;
-// - LenientX leaves it out with a warning, as if it were absent.
-// What facet needs to know where things stand is asked for in the first way, how they look in the second.
+// Typed access to members of JSON from unknown sources. An absent member is an error only for functions named Require.
+// If a member has the wrong type or value,
+// - XAt and RequireX throw Error(InvalidInput) with its place;
+// - LenientX gives a warning and treats it as absent.
+// The former are used for positions and transforms, the latter for appearance.
 #pragma once
 
 #include <cstddef>

@@ -30,7 +30,7 @@ void ReadSpotCone(const Json& object, Light& light, const Place& place) {
   light.outer_cone_angle = static_cast<float>(outer);
 }
 
-// Light that is less than none is none.
+// Negative light counts as 0.
 float Positive(double value, const Place& place) {
   if (value < 0.0) place.Warn("is negative; 0 is used");
   return RoundToFiniteFloat(std::max(value, 0.0));

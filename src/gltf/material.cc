@@ -31,14 +31,14 @@ class MaterialReader {
   }
 
  private:
-  // An object within the material, or an extension of it; null where there is none. What is wrong with it is said once.
+  // An object in the material, or one of its extensions; null if there is none. An error in it is reported once.
   const Json* Group(const char* name) {
     const auto [known, is_new] = groups_.try_emplace(name);
     if (is_new) known->second = (IsExtension(name) ? ExtensionOf : LenientObject)(object_, name, place_);
     return known->second;
   }
 
-  // Into the range, with a warning.
+  // Clamps to the range, with a warning.
   static float Clamp(double value, ParameterRange range, const Place& where) {
     const double clamped = std::min(std::max(value, double{range.low}), double{range.high});
     if (clamped != value) where.Warn("a number outside of its range was clamped");
@@ -52,7 +52,7 @@ class MaterialReader {
   template <int kLength>
   void ReadValue(const Json& object, const Place& place, const Parameter<glm::vec<kLength, float>>& parameter,
                  glm::vec<kLength, float>& out) const {
-    // A colour with alpha is often written without it.
+    // Colours with alpha are often written without it.
     const auto values = LenientNumbers(object, parameter.gltf_name, kLength, place, kLength == 4 ? 3 : kLength);
     for (std::size_t c = 0; c < values.size(); ++c) {
       out[static_cast<int>(c)] = Clamp(values[c], parameter.range, Place(place, parameter.gltf_name));

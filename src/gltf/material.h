@@ -1,4 +1,4 @@
-// Materials, with the extensions that facet has.
+// Materials, with the extensions that facet supports.
 #pragma once
 
 #include "facet/scene.h"
@@ -6,8 +6,8 @@
 
 namespace facet::gltf {
 
-// Nothing in a material is an error: factors outside of their range are clamped, with a warning, and what is broken is
-// read as if it were absent.
+// Reads all materials. Nothing in a material is an error: factors out of range are clamped with a warning, and broken
+// members count as absent.
 void ReadMaterials(Context& context, Scene& scene);
 
 }  // namespace facet::gltf

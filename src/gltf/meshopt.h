@@ -1,4 +1,4 @@
-// EXT_meshopt_compression: buffer views packed by meshoptimizer.
+// EXT_meshopt_compression: buffer views that are compressed by meshoptimizer.
 #pragma once
 
 #include "base/input_file.h"
@@ -20,10 +20,11 @@ struct MeshoptView {
 // Source: Khronos Group, extension EXT_meshopt_compression. Throws Error(InvalidInput).
 MeshoptView ReadMeshoptView(const Json& object, std::size_t buffer_count, const Place& place);
 
-// Throws Error(InvalidInput) when so few bytes cannot hold so many elements: before memory is taken for them.
+// Throws Error(InvalidInput) if the compressed bytes are too few for the number of elements. To be called before memory
+// is allocated for them.
 void CheckMeshoptSize(const MeshoptView& view, const Place& place);
 
-// count * stride bytes. Throws Error(InvalidInput).
+// Decompresses to count * stride bytes. Throws Error(InvalidInput).
 Bytes DecodeMeshopt(const MeshoptView& view, const Bytes& packed, const Place& place);
 
 }  // namespace facet::gltf

@@ -40,13 +40,13 @@ class TreeReader {
   }
 
  private:
-  // The scene that a picture shows without being asked for another; -1: all nodes.
+  // The scene that is rendered by default; -1: all nodes.
   int ShownScene() const { return scene_.default_scene >= 0 ? scene_.default_scene : scene_.scenes.empty() ? -1 : 0; }
 
-  // Indices of nodes, without those that are none (of which the last is kept as `problem`) and without repetitions.
+  // Reads a list of nodes without repetitions. Invalid indices are dropped, and the last is kept as `problem`.
   Indices ReadList(const Json& object, const char* key, const Place& place, std::vector<std::size_t>& marks,
                    std::size_t mark, std::optional<Error>& problem) {
-    constexpr std::size_t kMostFailures = 1000;  // of a list whose node or scene cannot be shown for them
+    constexpr std::size_t kMostFailures = 1000;  // of a list that makes its node or scene invalid
     Indices list;
     std::size_t failures = 0;
     try {
@@ -94,7 +94,7 @@ class TreeReader {
     scene_.scenes.push_back(std::move(roots));
   }
 
-  // The nodes that `open` and what hangs from it reach, whether or not the links make a tree.
+  // Marks all nodes that can be reached from `open`, whether or not the links form a tree.
   void Reach(Indices open, bool through_hidden, std::vector<bool>& reached) const {
     while (!open.empty()) {
       const auto i = std::size_t(open.back());
@@ -120,14 +120,14 @@ class TreeReader {
       }
       Reach(starts, true, reached);
       for (std::size_t i = 0; i < scene_.nodes.size(); ++i) {
-        if (!reached[i]) starts.push_back(int(i));  // on a cycle, or hanging from one
+        if (!reached[i]) starts.push_back(int(i));  // on a cycle, or below one
       }
     }
     Reach(starts, false, shown);
     return shown;
   }
 
-  // A node that several name as their child stays with the one that is shown.
+  // A node with several parents is kept as the child of the visible one.
   void FindParents(const std::vector<bool>& shown) {
     for (const bool of_shown : {true, false}) {
       for (std::size_t i = 0; i < scene_.nodes.size(); ++i) {
@@ -146,7 +146,7 @@ class TreeReader {
     }
   }
 
-  // A walk upwards that meets itself is a cycle; one that meets an earlier walk is not.
+  // Walks towards the roots: a walk that meets itself has found a cycle, one that meets an earlier walk has not.
   void CutCycles() {
     std::vector<std::size_t> met(scene_.nodes.size(), 0);
     for (std::size_t i = 0; i < scene_.nodes.size(); ++i) {
@@ -170,13 +170,13 @@ class TreeReader {
   }
 
   void Keep(std::optional<Error>& problem, const Error& error) {
-    constexpr std::size_t kError = 512;  // with its texts
+    constexpr std::size_t kError = 512;  // including its texts
     if (!problem) context_.Charge(1, kError, nodes_place_);
     problem = error;
   }
 
-  // A scene that lists a node and one of its ancestors has it below that. One that lists a node without any of its
-  // ancestors begins there.
+  // If a scene lists a node and one of its ancestors, the node is drawn below the ancestor. A node that is listed
+  // without any of its ancestors is a root.
   void DropListedTwice() {
     const auto has_parent = [&](int node) { return parents_[std::size_t(node)] >= 0; };
     std::vector<std::pair<std::size_t, std::size_t>> spans;  // by node: its and its last descendant's place in a walk
@@ -189,7 +189,7 @@ class TreeReader {
                 [&](int a, int b) { return spans[std::size_t(a)].first < spans[std::size_t(b)].first; });
       const Place scene_place(scenes_place_, s);
       const Place place(scene_place, "nodes");
-      const std::size_t below = scene_.nodes.size() + scene_.scenes.size() + s + 1;  // a mark of its own
+      const std::size_t below = scene_.nodes.size() + scene_.scenes.size() + s + 1;  // a unique mark
       int start = -1;
       for (const int node : by_place) {
         if (start >= 0 && spans[std::size_t(node)].first <= spans[std::size_t(start)].second) {
@@ -216,7 +216,7 @@ class TreeReader {
     }
     while (!open.empty()) {
       const int node = open.back();
-      if (node < 0) {  // all below it have been seen
+      if (node < 0) {  // all descendants have been visited
         open.pop_back();
         spans[std::size_t(-node - 1)].second = place - 1;
         continue;
@@ -255,13 +255,13 @@ void MarkTargets(const std::vector<float>& weights, MeshUse& use) {
   for (std::size_t t = 0; t < weights.size(); ++t) use.moving_targets[t] = use.moving_targets[t] || weights[t] != 0.0f;
 }
 
-// Of a node that is shown.
+// Records the use of a mesh by a visible node.
 void MarkMesh(const Context& context, const Json& node, const Place& place, Shown& shown) {
   const int mesh = LenientIndex(node, "mesh", shown.meshes.size(), "meshes", place);
   if (mesh < 0) return;
   MeshUse& use = shown.meshes[std::size_t(mesh)];
   const Place meshes_place(context.place, "meshes");
-  if (!use.shown) {  // the mesh's own weights hold where a node has none
+  if (!use.shown) {  // the mesh's weights apply if the node has none
     MarkTargets(
         LenientFloats(context.Object("meshes", std::size_t(mesh)), "weights", Place(meshes_place, std::size_t(mesh))),
         use);

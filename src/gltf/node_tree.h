@@ -1,4 +1,4 @@
-// Which node hangs from which, the scenes, and what of the file the default picture shows.
+// The node hierarchy, the scenes, and which parts of the file are visible in the default image.
 #pragma once
 
 #include <cstddef>
@@ -9,23 +9,23 @@
 
 namespace facet::gltf {
 
-// What the nodes of the default scene make of a mesh.
+// How the visible nodes of the default scene use a mesh.
 struct MeshUse {
   bool shown = false;
-  bool skinned = false;  // by one of them
+  bool skinned = false;  // by at least one node
   std::vector<bool>
       moving_targets;  // morph targets that it or one of them gives a weight other than 0; others may lack
 };
 
-// What the picture shows that is made without further choices: the visible nodes of the default scene, at rest.
+// What is visible with default settings: the visible nodes of the default scene, at rest.
 struct Shown {
   std::vector<bool> nodes, skins;  // by index
   std::vector<MeshUse> meshes;
 };
 
-// Fills the nodes' names, children and visibility (KHR_node_visibility), the scenes and the default one. Every node has
-// one parent at most, and none is its own ancestor. Throws Error(InvalidInput) where shown nodes break that rule, or
-// name nodes that there are not; links elsewhere are dropped with a warning.
+// Fills the nodes' names, children and visibility (KHR_node_visibility), the scenes and the default one. In the result
+// every node has at most one parent, and none is its own ancestor. Throws Error(InvalidInput) if visible nodes break
+// this rule or refer to nodes that do not exist; other broken links are dropped with a warning.
 Shown ReadNodeTree(Context& context, Scene& scene);
 
 }  // namespace facet::gltf

@@ -18,7 +18,7 @@ glm::dquat ToUnit(const double* xyzw, const Place& place) {
     place.Warn("is no rotation; none is used");
     return {1.0, 0.0, 0.0, 0.0};
   }
-  constexpr double kTolerance = 0.01;  // quantised rotations are unit to within their steps
+  constexpr double kTolerance = 0.01;  // quantised rotations are unit up to quantisation
   if (std::fabs(squared - 1.0) > kTolerance) place.Warn("is not unit; it was normalised");
   const double length = std::sqrt(squared);
   return {xyzw[3] / length, xyzw[0] / length, xyzw[1] / length, xyzw[2] / length};
@@ -92,7 +92,7 @@ void ReadInstances(Context& context, AccessorReader& reader, const Json& object,
 
 constexpr std::size_t kNoSkin = std::numeric_limits<std::size_t>::max();
 
-// Of a mesh whose nodes have skins.
+// The joints that the primitives of a skinned mesh use.
 struct SkinnedMesh {
   bool has_joints = false;
   int largest = -1;              // joint that has a weight
@@ -122,7 +122,7 @@ SkinnedMesh Survey(Mesh& mesh) {
   return survey;
 }
 
-// Joints that a skin does not have, and no vertex follows, become the first. Warns of vertices that follow none.
+// Replaces joints that the skin does not have and no vertex uses by the first joint. Warns of vertices without joints.
 void ClearUnusedJoints(const SkinnedMesh& survey, const std::vector<std::size_t>& primitives_read,
                        const Place& primitives_place, Mesh& mesh) {
   for (std::size_t p = 0; p < mesh.primitives.size(); ++p) {
@@ -148,7 +148,7 @@ class NodeReader {
         scene_(scene),
         skinned_(scene.meshes.size()) {}
 
-  // Each part by itself: where the node is not shown, the others stay.
+  // Parts are read separately: if one is broken and the node is invisible, the others are kept.
   void Read(std::size_t index, bool shown, const Place& place) {
     const Json& object = context_.Object("nodes", index);
     Node& node = scene_.nodes[index];
@@ -178,7 +178,7 @@ class NodeReader {
   }
 
  private:
-  // A joint that has a weight and that the skin does not have is an error.
+  // A joint with a weight that the skin does not have is an error.
   void AttachSkin(Node& node, const Place& place) {
     if (node.skin < 0) return;
     const int skin = std::exchange(node.skin, -1);
@@ -223,7 +223,7 @@ class NodeReader {
     Place(place, "weights")
         .Warn("has " + std::to_string(node.weights.size()) + " numbers for " + std::to_string(targets) +
               " morph targets");
-    if (node.weights.size() > targets) node.weights.resize(targets);  // those that are missing are zero
+    if (node.weights.size() > targets) node.weights.resize(targets);  // missing ones count as zero
   }
 
   Context& context_;
@@ -233,7 +233,7 @@ class NodeReader {
   std::vector<std::optional<SkinnedMesh>> skinned_;  // by mesh
 };
 
-// By node: whether something to be seen, to see with or to see by hangs from it. Where others stand is all one.
+// By node: whether it or a descendant has a mesh, a camera or a light. The transforms of other nodes do not matter.
 std::vector<bool> CarryThings(const Context& context, const Scene& scene) {
   std::vector<int> parents(scene.nodes.size(), -1);
   for (std::size_t i = 0; i < parents.size(); ++i) {

@@ -1,4 +1,4 @@
-// Everything that stands in space: nodes, skins, cameras, lights and instances.
+// Nodes, skins, cameras, lights and instances.
 #pragma once
 
 #include "facet/scene.h"
@@ -7,17 +7,18 @@
 
 namespace facet::gltf {
 
-// By index into Scene::cameras: false for one that cannot be used, which gets a lens that has no meaning, and no node.
+// Reads the cameras. The result tells for each whether it can be used; others get an arbitrary lens, and no node.
 std::vector<bool> ReadCameras(Context& context, Scene& scene);
 
-// KHR_lights_punctual. Needs no other part of the scene.
+// Reads KHR_lights_punctual. Needs no other part of the scene.
 void ReadLights(Context& context, Scene& scene);
 
-// Throws Error(InvalidInput) where a skin that is shown cannot be read; another one gets no joints, and a warning.
+// Reads the skins. Throws Error(InvalidInput) if a visible skin cannot be read; others get no joints, with a warning.
 void ReadSkins(Context& context, AccessorReader& reader, const Shown& shown, Scene& scene);
 
-// What nodes hold: transforms, meshes, skins, cameras, lights, instances (EXT_mesh_gpu_instancing). Needs the tree,
-// meshes, skins, cameras and lights. Throws Error(InvalidInput) where what a shown node draws, or where, is not known.
+// Reads the nodes' transforms, meshes, skins, cameras, lights and instances (EXT_mesh_gpu_instancing). Needs the tree,
+// meshes, skins, cameras and lights. Throws Error(InvalidInput) if the mesh or transform of a visible node cannot be
+// read.
 void ReadNodes(Context& context, AccessorReader& reader, const Shown& shown, const std::vector<bool>& usable_cameras,
                Scene& scene);
 

@@ -13,8 +13,8 @@
 namespace facet::gltf {
 namespace {
 
-// Throws Error(InvalidInput) for what cannot be a picture: in place of one people have what Git LFS leaves, or a
-// server's answer.
+// Throws Error(InvalidInput) for bytes that cannot be an image, such as the pointer files of Git LFS or a server's
+// error page.
 void RefuseForeign(std::span<const std::byte> bytes, const std::string& name) {
   const auto foreign = RecognizeForeign({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   if (!foreign || foreign->is_picture) return;
@@ -31,7 +31,7 @@ void DecodeTextureRows(std::span<const std::byte> bytes, const std::string& name
   DecodeImageRows(bytes, name, receive, ImageFormats::Gltf);
 }
 
-// A picture in memory: a slice of the file, or of a data URI's bytes.
+// An encoded image in memory: a slice of the glTF file, or the bytes of a data URI.
 class EncodedImage final : public ImageSource {
  public:
   EncodedImage(Bytes bytes, std::string name) : bytes_(std::move(bytes)), name_(std::move(name)) {}
@@ -46,7 +46,7 @@ class EncodedImage final : public ImageSource {
   std::string name_;
 };
 
-// A picture in a file of its own, read when it is decoded.
+// An image in a separate file, which is read when it is decoded.
 class ImageFile final : public ImageSource {
  public:
   explicit ImageFile(std::filesystem::path path) : path_(std::move(path)) {}
@@ -63,7 +63,7 @@ class ImageFile final : public ImageSource {
   bool MayChange() const override { return true; }
 
  private:
-  // Charged for as long as it is needed. Not mapped: it is read once, from its start to its end.
+  // Charged while it is needed. Not mapped, because it is read only once, sequentially.
   struct Content {
     explicit Content(const std::filesystem::path& path, std::size_t most = std::numeric_limits<std::size_t>::max())
         : bytes(ReadFile(path, {.regular_only = true, .most = most}, &file_size)),
@@ -78,7 +78,7 @@ class ImageFile final : public ImageSource {
 
 std::optional<ImageHeader> ImageFile::Header() const {
   try {
-    // The first piece is enough unless a JPEG's or PNG's colour profile or previews come before what is looked for.
+    // The first piece is enough unless colour profiles or previews in a JPEG or PNG precede the header.
     for (const std::size_t most : {std::size_t(1) << 16, std::numeric_limits<std::size_t>::max()}) {
       const Content start(path_, most);
       std::optional<ImageHeader> header = ProbeImage(start.bytes.Span());
@@ -87,12 +87,12 @@ std::optional<ImageHeader> ImageFile::Header() const {
       const bool known = header->width > 0 && header->height > 0 && header->channels > 0;
       if (known || start.bytes.size >= start.file_size) return header;
     }
-  } catch (const Error&) {  // Decode() is the one to say so
+  } catch (const Error&) {  // Decode() will report it
   }
   return std::nullopt;
 }
 
-// A picture that is not there.
+// An image that does not exist.
 class MissingImage final : public ImageSource {
  public:
   MissingImage(std::string name, std::string reason) : name_(std::move(name)), reason_(std::move(reason)) {}
@@ -103,7 +103,7 @@ class MissingImage final : public ImageSource {
   std::string name_, reason_;
 };
 
-// Throws Error where there is no picture.
+// Throws Error if there is no image.
 std::shared_ptr<const ImageSource> OpenSource(Context& context, BufferStore& buffers, const Json& object,
                                               const std::string& name, const Place& place) {
   const int view = IndexAt(object, "bufferView", context.document.Count("bufferViews"), "bufferViews", place);
@@ -154,7 +154,7 @@ Sampler ReadSampler(const Json& object, const Place& place) {
   return sampler;
 }
 
-// Says why nothing stands in for the image of a texture that has none.
+// Warns that a texture has no image, and says why.
 void WarnOfNoImage(const Json& object, const Place& place) {
   std::string names;
   if (const Json* extensions = LenientObject(object, "extensions", place)) {
@@ -219,7 +219,7 @@ void ReadTextures(Context& context, const std::vector<bool>& images, Scene& scen
       if (!has_image && source >= 0) texture.image = source;
     }
     if (texture.image < 0) WarnOfNoImage(object, place);
-    // Of an image that is not there enough has been said.
+    // A missing image has been reported already.
     if (texture.image >= 0 && !images[static_cast<std::size_t>(texture.image)]) texture.image = -1;
     scene.textures.push_back(std::move(texture));
   }

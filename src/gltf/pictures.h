@@ -1,4 +1,4 @@
-// Images and textures. Pictures stay encoded until someone needs them.
+// Images and textures. Images stay encoded until they are needed.
 #pragma once
 
 #include "facet/scene.h"
@@ -6,12 +6,12 @@
 
 namespace facet::gltf {
 
-// One SceneImage for each image of the file, under the same index. A picture that is missing or malformed is a warning
-// here, and an Error when it is decoded. By index: false for one of which it is known that there is no picture.
+// Makes a SceneImage for each image of the file, with the same index. A missing or malformed image is a warning here,
+// and an Error when it is decoded. The result is false for each image that is known not to exist.
 std::vector<bool> ReadImages(Context& context, BufferStore& buffers, Scene& scene);
 
-// One Texture for each texture of the file, with its sampler. `images` is what ReadImages() returns; a texture whose
-// image is not there has none.
+// Makes a Texture for each texture of the file, with its sampler. `images`: the result of ReadImages(); a texture whose
+// image does not exist has none.
 void ReadTextures(Context& context, const std::vector<bool>& images, Scene& scene);
 
 }  // namespace facet::gltf

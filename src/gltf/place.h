@@ -1,4 +1,4 @@
-// Where in a file something stands, spelled only when a message needs it.
+// The location of a value in a file, which is converted to text only when a message needs it.
 #pragma once
 
 #include <cstddef>
@@ -10,14 +10,15 @@
 
 namespace facet::gltf {
 
-// Names in a file may be as long as the file, and messages repeat them.
+// Limits the length of names in messages, since they may be as long as the file.
 inline constexpr std::size_t kMostOfKey = 100, kMostOfMessage = 1000;
 std::string Shortened(std::string_view text, std::size_t most);
 
-// A step on the way from the file to a value in it. Made on the stack while walking down; refers to its parent.
+// One step on the path from the file to a value in it. It is made on the stack while the file is read, and refers to
+// its parent.
 class Place {
  public:
-  // `warnings`, which takes what is said about places in the file, may be null: then nothing is said.
+  // `warnings`: receives the warnings about locations in the file; null: they are discarded.
   explicit Place(std::string_view file, Warnings* warnings = nullptr) : key_(file), warnings_(warnings) {}
   Place(const Place& parent, std::string_view key) : parent_(&parent), key_(key) {}
   Place(const Place& parent, std::size_t index) : parent_(&parent), index_(index), is_index_(true) {}
@@ -38,7 +39,7 @@ class Place {
   void Warn(const std::string& what) const {
     if (Warnings* const warnings = Root().warnings_) warnings->Add(Path(), Shortened(what, kMostOfMessage));
   }
-  // Warns of `consequence` here, and says why: an error here or elsewhere in the file.
+  // Warns of `consequence` here, with its cause, an error here or elsewhere in the file.
   void Warn(const std::string& consequence, const Error& why) const {
     const std::string here = Full(), file = std::string(Root().key_) + ": ";
     std::string where = why.where() == here ? "" : why.where() + ": ";

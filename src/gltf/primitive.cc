@@ -47,8 +47,8 @@ std::vector<std::uint32_t> ReadIndices(Context& context, AccessorReader& reader,
   return indices;
 }
 
-// What the vertices of `indices` span; moves the indices to its start when it is much smaller than the whole: files
-// may share one large vertex buffer among many primitives.
+// The range of vertices that `indices` use. If it is much smaller than the whole, indices are made relative to its
+// start, because files may share one large vertex buffer among many primitives.
 Range NarrowRange(std::vector<std::uint32_t>& indices, std::size_t vertex_count) {
   if (indices.empty()) return {0, vertex_count};
   std::uint32_t low = indices[0], high = indices[0];
@@ -62,7 +62,7 @@ Range NarrowRange(std::vector<std::uint32_t>& indices, std::size_t vertex_count)
   return {low, span};
 }
 
-// Drops what is left over from a list of pairs or triples. False: nothing remains.
+// Drops an incomplete pair or triple at the end. False: nothing remains.
 bool TrimList(Primitive& primitive, const Place& place) {
   const std::size_t each = primitive.topology == Topology::Lines       ? 2
                            : primitive.topology == Topology::Triangles ? 3
@@ -76,7 +76,7 @@ bool TrimList(Primitive& primitive, const Place& place) {
 }
 
 void NormaliseNormals(std::vector<glm::vec3>& normals, const Place& place) {
-  constexpr float kTolerance = 1e-3f;  // of the squared length: what is unit in the file keeps its bits
+  constexpr float kTolerance = 1e-3f;  // of the squared length, so that unit vectors in the file keep their bits
   std::size_t zero = 0;
   for (glm::vec3& normal : normals) {
     const float squared = normal.x * normal.x + normal.y * normal.y + normal.z * normal.z;
@@ -143,7 +143,7 @@ class PrimitiveReader {
     return semantic == "POSITION" || (use_.skinned && IsJointsOrWeights(semantic));
   }
 
-  // Reads one attribute; where it is not needed, it may be broken.
+  // Reads one attribute, which may be broken if it is not needed.
   template <class Function>
   bool Optionally(const std::string& semantic, bool is_needed, const Place& place, const Function& function) {
     return context_.Try(is_needed, Place(place, semantic), "ignored", function);
@@ -264,7 +264,8 @@ void PrimitiveReader::ReadTargets(std::size_t vertex_count, Range range) {
   }
 }
 
-// Nothing where the primitive is not packed, or where its packed data is damaged and plain data stands beside it.
+// Nothing if the primitive is not compressed, or if its compressed data is damaged and there is an uncompressed
+// fallback.
 std::optional<DracoMesh> PrimitiveReader::TryDraco() {
   constexpr const char* kDraco = "KHR_draco_mesh_compression";
   const Json* extension = ExtensionOf(object_, kDraco, place_);

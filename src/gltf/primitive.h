@@ -9,9 +9,9 @@
 
 namespace facet::gltf {
 
-// Reads one primitive of a mesh; nothing (and a warning) where it has no positions, no vertices or no indices. Vertices
-// that the indices do not come near are left out, and so are broken attributes that say how the surface looks.
-// Throws Error(InvalidInput, OutOfMemory) where the vertices' places cannot be read.
+// Reads one primitive of a mesh. Returns nothing, with a warning, if it has no positions, vertices or indices. Vertices
+// beyond the range of the indices are dropped, and broken attributes that affect only appearance are ignored. Throws
+// Error(InvalidInput, OutOfMemory) if positions cannot be read.
 std::optional<Primitive> ReadPrimitive(Context& context, BufferStore& buffers, AccessorReader& reader,
                                        const Json& object, const MeshUse& use, const Place& place);
 

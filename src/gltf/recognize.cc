@@ -24,7 +24,7 @@ struct Signature {
   const char* hint;
 };
 
-// The first that fits counts.
+// The first match counts.
 constexpr Signature kSignatures[] = {
     {0, "version https://git-lfs.github.com/spec/"sv, "a Git LFS pointer in place of the file", "run \"git lfs pull\""},
     {0, "\x1F\x8B"sv, "compressed by gzip", "unpack it first: gunzip"},
@@ -120,7 +120,7 @@ std::uint32_t Little(std::string_view file, std::size_t at, std::size_t bytes) {
   return value;
 }
 
-// By the names of the files in it, which stand at its start and at its end.
+// Recognises an archive by the names of the files in it, which are at its start and at its end.
 ForeignFile RecognizeZip(std::string_view file) {
   constexpr std::size_t kFew = 64 << 10;
   const std::string_view first = file.substr(0, kFew), last = file.substr(file.size() - std::min(kFew, file.size()));
@@ -130,7 +130,7 @@ ForeignFile RecognizeZip(std::string_view file) {
   return {"a zip archive", kUnpack};
 }
 
-// Markup by its first elements. `start` is in lower case.
+// Recognises markup by its first elements. `start` is in lower case.
 ForeignFile RecognizeMarkup(std::string_view start) {
   if (Contains(start, "<html") || Contains(start, "<!doctype html") || Contains(start, "<head")) {
     return {"an HTML page", kDownload};
@@ -142,7 +142,7 @@ ForeignFile RecognizeMarkup(std::string_view start) {
   return {"an XML document", kDownload};
 }
 
-// Formats of plain text, by their first line that is no comment.
+// Recognises text formats by the first line that is not a comment.
 std::optional<ForeignFile> RecognizeText(std::string_view start) {
   while (!start.empty()) {
     const std::size_t end = std::min(start.find('\n'), start.size() - 1);

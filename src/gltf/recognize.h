@@ -1,4 +1,4 @@
-// What a file is that is no glTF file: people take one for the other.
+// Recognises files of other kinds, for helpful error messages.
 #pragma once
 
 #include <optional>
@@ -13,10 +13,10 @@ struct ForeignFile {
   bool is_picture = false;
 };
 
-// Told by the content. Nothing for what begins as JSON or GLB, and for what is none of the kinds that are known.
+// Recognises a file by its content. Nothing for files that begin as JSON or GLB, and for unknown kinds.
 std::optional<ForeignFile> RecognizeForeign(std::string_view file);
 
-// Throws Error(InvalidInput), in the words of JSON, for a file that is none: `name` is what messages call it.
+// Throws Error(InvalidInput) with a message about JSON for a file that is not JSON. `name`: of the file, for messages.
 void RefuseForeignJson(std::string_view file, const std::string& name);
 
 }  // namespace facet::gltf

@@ -38,7 +38,7 @@ constexpr std::array<std::uint8_t, 256> MakeBase64Digits() {
 
 constexpr auto kBase64Digits = MakeBase64Digits();
 
-// What lines are broken and indented with.
+// Whether a character is a blank or line break.
 bool IsBlank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == '\f'; }
 
 }  // namespace

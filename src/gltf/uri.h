@@ -14,18 +14,19 @@ std::string PercentDecode(std::string_view text);
 
 bool IsDataUri(std::string_view uri);
 
-// The bytes that a data URI holds (base64, or percent-encoded text); nothing when it is malformed. They are charged to
-// the memory budget. Throws Error(OutOfMemory).
+// Decodes a data URI (base64, or percent-encoded text); nothing if it is malformed. The bytes are charged to the memory
+// budget. Throws Error(OutOfMemory).
 std::optional<Bytes> DecodeDataUri(std::string_view uri);
 
-// Whether it can be seen without decoding that a data URI is malformed.
+// Whether a data URI is malformed, as far as that is visible without decoding.
 bool IsMalformedDataUri(std::string_view uri);
 
-// Standard or URL-safe alphabet, padding optional, blanks and line breaks ignored; nothing when it is malformed.
-// Charges and throws likewise.
+// Decodes base64 in the standard or URL-safe alphabet; padding is optional, blanks and line breaks are ignored. Nothing
+// if it is malformed. Charges memory and throws in the same way.
 std::optional<Bytes> DecodeBase64(std::string_view text);
 
-// True for "http://...", "file:...": what names a scheme. A single letter is no scheme ("C:" is a Windows drive).
+// Whether a URI has a scheme, like "http://..." or "file:...". A single letter is not a scheme ("C:" is a Windows
+// drive).
 bool HasScheme(std::string_view uri);
 
 }  // namespace facet::gltf

@@ -1,4 +1,4 @@
-// What a loader has to say about a file that it reads nevertheless.
+// The warnings of a loader about a file that it can read nevertheless.
 #pragma once
 
 #include <cstddef>
@@ -11,11 +11,12 @@ namespace facet::gltf {
 
 class Warnings {
  public:
-  // `place` is "accessors[3].count", or empty. The same mistake in several places is one line, which names the first
-  // and counts the others: what an exporter does wrong, it does wrong everywhere.
+  // Adds a warning. `place` is like "accessors[3].count", or empty. The same mistake in several places becomes one line
+  // that names the first and counts the others, because exporters repeat their mistakes.
   void Add(const std::string& place, const std::string& what);
 
-  // In the order in which they came; of more than kMostLines mistakes the last line says how many there are.
+  // All lines, in the order of the first warnings. If there are more than kMostLines, the last line states the number
+  // of the others.
   std::vector<std::string> Lines() const;
 
  private:

@@ -18,9 +18,10 @@
 namespace facet {
 namespace {
 
-constexpr int kPieceRows = 64;  // a piece stays in the processor's cache until the receiver has it
+constexpr int kPieceRows = 64;  // few enough that a piece stays in the processor's cache until it is received
 
-// The format of a file that may be decoded, before a decoder sees it. Throws as DecodeImage.
+// The format of a file, which must be allowed to be decoded; checked before any decoder sees it. Throws as
+// DecodeImage().
 const ImageFormat& FormatToDecode(std::span<const std::byte> bytes, const std::string& name, ImageFormats formats) {
   const std::optional<ImageHeader> header = ProbeImage(bytes);
   if (header && header->width > 0 && header->height > 0) {

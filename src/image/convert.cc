@@ -15,7 +15,7 @@ namespace {
 
 bool HasAlpha(const Image& image) { return image.channels == 2 || image.channels == 4; }
 
-// Linear light of the 65536 codes of a 16-bit number.
+// The linear light of all 65536 codes of 16 bits.
 const std::vector<float>& Srgb16ToLinearTable() {
   static const std::vector<float> table = [] {
     std::vector<float> entries(65536);
@@ -41,7 +41,7 @@ Image Blank(const Image& like, int channels, ChannelType type) {
   return out;
 }
 
-// Writes the linear value of every number of the picture.
+// Writes the linear value of every component of the image.
 template <class T, class Colour, class Alpha>
 void ForEachNumber(const Image& image, Colour&& colour, Alpha&& alpha, float* out) {
   const T* from = image.As<T>();
@@ -54,7 +54,7 @@ void ForEachNumber(const Image& image, Colour&& colour, Alpha&& alpha, float* ou
 
 std::uint8_t ToByte(std::uint16_t value) { return static_cast<std::uint8_t>((value * 255u + 32767u) / 65535u); }
 
-// [0, 1] to [0, max], nearest; NaN to 0.
+// Maps [0, 1] to [0, max], rounded to nearest; NaN to 0.
 float Quantised(float value, float max) {
   const float unit = value > 0.0f ? (value < 1.0f ? value : 1.0f) : 0.0f;
   return std::floor(unit * max + 0.5f);

@@ -1,4 +1,4 @@
-// Conversions between the forms that a picture can have.
+// Conversions between image formats: encoding, component type, channels.
 #pragma once
 
 #include <cstddef>
@@ -8,27 +8,27 @@
 namespace facet {
 
 // Throws Error(InvalidUsage) unless sizes are positive, channels are 1 to 4 and `bytes` has the length that they say.
-// `name` is what the message calls the picture.
+// `name`: of the image, for messages.
 void CheckImage(const Image& image, const char* name);
 
-// Linear light as 32-bit floats, 3 channels (grey is repeated, alpha is left out): what an environment needs. Numbers
-// that are not finite or below zero become 0, those above kMaxRadiance become kMaxRadiance; `*repaired`, when given,
-// receives how many they were.
+// To linear light as 32-bit floats, 3 channels (grey is repeated, alpha is dropped), as environments need it.
+// Components that are negative or not finite become 0, those above kMaxRadiance become kMaxRadiance; `*repaired`, if
+// given, receives their number.
 Image ToLinearRgb32F(const Image& image, std::size_t* repaired = nullptr);
 inline constexpr float kMaxRadiance = 1.0e9f;
 
-// Linear light as 32-bit floats with straight alpha, 4 channels; nothing is repaired.
+// To linear light as 32-bit floats, 4 channels, straight alpha. Nothing is repaired.
 Image ToLinearRgba32F(const Image& image);
 
-// Linear light as 32-bit floats, the same number of channels; alpha is straight as before.
+// To linear light as 32-bit floats with the same number of channels; alpha stays straight.
 Image ToLinear32F(const Image& image);
 
-// The same numbers with another depth, U8 or U16: 16 -> 8 bits rounds to nearest, 8 -> 16 multiplies by 257, F32 is
-// clamped to [0, 1] (NaN becomes 0) and rounded. The encoding stays.
+// To another component type, U8 or U16: 16 to 8 bits rounds to nearest, 8 to 16 bits multiplies by 257, F32 is clamped
+// to [0, 1] (NaN becomes 0) and rounded. The encoding does not change.
 Image WithType(const Image& image, ChannelType type);
 
-// The same picture with 1 to 4 channels: grey is repeated into RGB, alpha is added opaque or left out. RGB to grey is
-// not offered (InvalidUsage): which grey would depend on the use.
+// To another number of channels, 1 to 4: grey is repeated into RGB; an opaque alpha is added, or alpha is dropped. RGB
+// is not converted to grey (InvalidUsage), because the right weights depend on the use.
 Image WithChannels(const Image& image, int channels);
 
 }  // namespace facet

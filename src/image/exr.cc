@@ -12,14 +12,14 @@ namespace facet {
 
 namespace {
 
-// Numbers and words in little-endian order, as facet's machines have them.
+// Reads values in little-endian order, which is the order of all machines that facet supports.
 class Reader {
  public:
   Reader(std::string_view left, const std::string& name) : left_(left), name_(name) {}
 
   [[noreturn]] void CutOff() const { throw Error(ErrorCode::InvalidInput, "broken EXR: its header is cut off", name_); }
 
-  // Up to a zero.
+  // Reads text up to a zero byte.
   std::string_view Word() {
     const std::size_t end = left_.find('\0');
     if (end == std::string_view::npos) CutOff();
@@ -53,7 +53,7 @@ struct Attribute {
   std::string_view name, type, value;
 };
 
-// Calls take(attribute) for the attributes of one part. False: there is not even one, which ends a list of parts.
+// Calls take(attribute) for the attributes of one part. False: there is none, which marks the end of a list of parts.
 template <class Take>
 bool ReadPart(Reader& reader, const Take& take) {
   for (bool any = false;; any = true) {
@@ -66,7 +66,7 @@ bool ReadPart(Reader& reader, const Take& take) {
   }
 }
 
-// The bytes behind the magic number, and whether there may be several parts.
+// The bytes after the magic number, and whether the file may have several parts.
 Reader Open(std::span<const std::byte> bytes, const std::string& name, bool* several) {
   constexpr std::uint32_t kSeveralParts = 0x1000;
   Reader reader({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, name);
@@ -75,8 +75,8 @@ Reader Open(std::span<const std::byte> bytes, const std::string& name, bool* sev
   return reader;
 }
 
-// OpenEXR reads values of these types by their own lengths, whatever a header says: where the two differ, it would take
-// what stands behind for something else than is checked here.
+// OpenEXR reads values of these types by their own lengths and ignores the length in the header. If the two differ, it
+// would interpret the following bytes differently from this check.
 struct TypeSize {
   std::string_view type;
   std::size_t size;
@@ -90,7 +90,7 @@ constexpr TypeSize kSizes[] = {{"box2f", 16},      {"box2i", 16},   {"chromatici
                                {"v2f", 8},         {"v2i", 8},      {"v3d", 24},
                                {"v3f", 12},        {"v3i", 12},     {"deepImageState", 1}};
 
-// What OpenEXR makes room for by a number in an attribute's value.
+// The size by which OpenEXR allocates memory, from an attribute's value.
 void CheckAttribute(const Attribute& attribute, std::size_t file_size, const std::string& name) {
   Reader value(attribute.value, name);
   for (const auto& [type, size] : kSizes) {
@@ -106,7 +106,7 @@ void CheckAttribute(const Attribute& attribute, std::size_t file_size, const std
     const auto width = value.Number<std::uint32_t>(), height = value.Number<std::uint32_t>();
     CheckImageSize(width, height, name);
   } else if (attribute.name == "chunkCount" && attribute.type == "int") {
-    // Each has a place in the file, of 8 bytes.
+    // Each chunk has an 8-byte entry in the file's offset table.
     if (value.Number<std::uint32_t>() > file_size / 8) value.CutOff();
   } else if (attribute.type == "preview") {
     const std::uint64_t width = value.Number<std::uint32_t>(), height = value.Number<std::uint32_t>();

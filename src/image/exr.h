@@ -8,13 +8,13 @@
 
 namespace facet {
 
-// Its attributes of type string, by name; see ReadImageText. Of a file with several parts, those of the first.
+// Reads the header's attributes of type string, by name; see ReadImageText(). Of several parts, only the first is read.
 // Source: OpenEXR, "The OpenEXR File Layout", section "Header". Throws Error(InvalidInput) where it is cut off.
 std::map<std::string, std::string> ReadExrText(std::span<const std::byte> bytes, const std::string& name);
 
-// OpenEXR makes room for what a header's numbers say before it looks for it in the file: this refuses those that cannot
-// be right. Throws Error: InvalidInput where attributes reach beyond the file, or where they do not hold what they say;
-// OutOfMemory for a picture beyond the limits of image/codec.h.
+// Refuses headers whose sizes cannot be right, because OpenEXR allocates memory by them before it reads the data.
+// Throws Error: InvalidInput if attributes reach beyond the file or contradict themselves, OutOfMemory for an image
+// beyond the limits of image/codec.h.
 void CheckExrHeader(std::span<const std::byte> bytes, const std::string& name);
 
 }  // namespace facet

@@ -1,4 +1,4 @@
-// The first bytes of a file: what tells its format and its header by.
+// The first bytes of a file, from which its format and header are read.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 namespace facet {
 
-// They may be cut off anywhere: what lies beyond the end reads as 0, so whoever must know asks Has().
+// The bytes may end anywhere: reads beyond the end give 0, and Has() tells whether bytes are there.
 class FileStart {
  public:
   explicit FileStart(std::span<const std::byte> bytes)
@@ -28,7 +28,7 @@ class FileStart {
   std::uint32_t Little24(std::size_t at) const { return Little16(at) | Byte(at + 2) << 16; }
   std::uint32_t Little32(std::size_t at) const { return Little16(at) | Little16(at + 2) << 16; }
 
-  // From `at` up to the line break, which it passes. False: there is none.
+  // Reads a line from `at` on, and moves `at` behind its line break. False: there is no line break.
   bool Line(std::size_t& at, std::string_view& line) const {
     const std::size_t end = text_.find('\n', at);
     if (end == std::string_view::npos) return false;
@@ -42,7 +42,7 @@ class FileStart {
   std::string_view text_;
 };
 
-// Pixels along a side, as a header says: a size that no int holds is as good as none.
+// A side of an image, in pixels, from a header; 0 if it does not fit an int.
 inline int SideOf(std::uint64_t value) {
   return value <= static_cast<std::uint64_t>(std::numeric_limits<int>::max()) ? static_cast<int>(value) : 0;
 }

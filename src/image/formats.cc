@@ -20,7 +20,7 @@ constexpr unsigned kU8 = 1u << static_cast<unsigned>(ChannelType::U8);
 constexpr unsigned kU16 = 1u << static_cast<unsigned>(ChannelType::U16);
 constexpr unsigned kF32 = 1u << static_cast<unsigned>(ChannelType::F32);
 
-// A file has the first format that fits; messages list extensions in this order.
+// The first matching format counts; messages list extensions in this order.
 constexpr ImageFormat kFormats[] = {
     {.name = "PNG",
      .extensions = {".png"},
@@ -89,7 +89,7 @@ constexpr ImageFormat kFormats[] = {
     {"PGM", {".pgm"}, {"P2", "P5"}},
     {"PFM", {".pfm"}, {"PF\n", "Pf\n"}},
     {"icon", {".ico"}, {"\0\0\1\0"sv}},
-    // What only looks like a format above: the module says what is wrong with it.
+    // Files that only resemble a format above: the module reports the error.
     {"PNG", {".png"}, {"\x89PNG"}},
     {"WebP", {".webp"}, {"........WEBP"}},
     {"Radiance HDR", {".hdr"}, {"#?R"}},

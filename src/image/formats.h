@@ -1,6 +1,6 @@
-// The formats that picture files have: one table, in formats.cc, by which all goes that reads and writes pictures. To
-// add a codec: a file of the functions that its row names, the row, and the file's name in CMakeLists.txt. (Messages
-// list formats in words: two in oiio_loader.cc facet's own codecs, one in codec.cc those that hold text.)
+// The table of image file formats, in formats.cc, which all reading and writing of images goes by. A new codec takes a
+// file with the functions that its row names, the row itself, and an entry in CMakeLists.txt. (Some messages list
+// formats in words: two in oiio_loader.cc those with a codec of facet, one in codec.cc those that store text.)
 #pragma once
 
 #include <cstddef>
@@ -20,7 +20,7 @@
 
 namespace facet {
 
-// How a file that facet writes holds alpha. None: only opaque pictures are written.
+// How the files that facet writes store alpha. None: only opaque images can be written.
 enum class FileAlpha : std::uint8_t { None, Straight, Associated };
 
 using MakeText = std::function<ImageText()>;
@@ -28,40 +28,43 @@ using MakeText = std::function<ImageText()>;
 struct ImageFormat {
   std::string_view name;                // for messages
   std::string_view extensions[2] = {};  // lower case, with its dot; OpenImageIO knows the format by the first
-  // What files begin with: one of these, in which a dot is any byte. None: they are told by their name's extension.
+  // The bytes that files begin with: one of these, in which a dot stands for any byte. None: files are recognised by
+  // their extension.
   std::string_view signatures[4] = {};
   bool in_gltf = false;  // glTF 2.0 or an extension that facet supports allows it
 
-  // See ProbeImage; `format` and `bytes` are filled in already. May be null.
+  // See ProbeImage(); `format` and `bytes` have been set already. May be null.
   void (*probe)(const FileStart& file, ImageHeader& header) = nullptr;
-  // See DecodeImage. By pieces of `piece_rows` rows, or whole; both null: the OpenImageIO module does it.
+  // See DecodeImage(). One decodes in pieces of `piece_rows` rows, the other whole images; if both are null, the
+  // OpenImageIO module decodes.
   void (*decode_rows)(std::span<const std::byte> bytes, const std::string& name, int piece_rows,
                       const PieceReceiver& receive) = nullptr;
   Image (*decode)(std::span<const std::byte> bytes, const std::string& name) = nullptr;
-  // Throws where the module must not see the file. May be null.
+  // Throws if the file must not be passed to the OpenImageIO module. May be null.
   void (*check)(std::span<const std::byte> bytes, const std::string& name) = nullptr;
-  // See ReadImageText. Null: files of this format hold no text, and none is written to them.
+  // See ReadImageText(). Null: no text is read from or written to files of this format.
   std::map<std::string, std::string> (*read_text)(std::span<const std::byte> bytes, const std::string& name) = nullptr;
 
-  // Writing. The kinds of numbers that a file holds, bits of 1 << ChannelType; none: facet does not write the format.
+  // Writing. The component types that files may have, as bits 1 << ChannelType; none: facet does not write the format.
   unsigned types = 0;
   FileAlpha alpha = FileAlpha::None;
-  bool has_grey = true;  // 1 and 2 channels; else grey is repeated into RGB
-  // A whole file of a picture in the form that the above says. Null: the OpenImageIO module does it.
+  bool has_grey = true;  // files may have 1 or 2 channels; false: grey is repeated into RGB
+  // Encodes an image that has been converted as the fields above say. Null: the OpenImageIO module does it.
   std::vector<std::byte> (*encode)(const Image& form, const MakeText& make_text) = nullptr;
 
   bool Holds(ChannelType type) const { return (types >> static_cast<unsigned>(type) & 1) != 0; }
-  // Its files hold linear light, as floats, and nothing else.
+  // Whether files can store linear light, as floats, only.
   bool IsLinear() const { return Holds(ChannelType::F32) && !Holds(ChannelType::U8); }
 };
 
-// Told by the first bytes, or by `name`, the file's. Null for what is not known.
+// Recognises a format by the first bytes, or by `name`, the file's name. Null: not known.
 const ImageFormat* FormatOf(std::span<const std::byte> bytes, std::string_view name = {});
 
-// The extension of a file's name in lower case, with its dot; empty where there is none.
+// The extension of a file name in lower case, with its dot; empty if there is none.
 std::string ExtensionOf(const std::filesystem::path& path);
 
-// The format that the extension of `path` names, one that is written. Throws Error(InvalidUsage).
+// The format that the extension of `path` stands for, which must be one that can be written. Throws
+// Error(InvalidUsage).
 const ImageFormat& FormatToWrite(const std::filesystem::path& path);
 
 }  // namespace facet

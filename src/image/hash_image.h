@@ -1,4 +1,4 @@
-// The digest of facet/image.h for a picture that comes in bands: the bytes of all its rows follow, top row first.
+// HashImage() of facet/image.h for an image that comes in bands.
 #pragma once
 
 #include "base/sha256.h"
@@ -6,7 +6,8 @@
 
 namespace facet {
 
-// HashImage()'s beginning. `form`: the whole picture's size and kind; its bytes are not looked at.
+// Begins the digest; the caller then adds the bytes of all rows, top row first. `form`: the size and format of the
+// whole image; its bytes are not read.
 Sha256 BeginImageHash(const Image& form);
 
 }  // namespace facet

@@ -1,5 +1,5 @@
-// What libjpeg does with errors. Its own handler ends the process; this one leaves by longjmp, which must not skip
-// destructors: every function that calls setjmp holds plain data only, and whoever owns memory calls those functions.
+// Error handling for libjpeg. Its own handler ends the process; this one calls longjmp, which must not skip
+// destructors: functions that call setjmp have plain data only, and the functions that own memory call them.
 #pragma once
 
 #include <csetjmp>
@@ -17,7 +17,7 @@ struct JpegErrors {
   jpeg_error_mgr manager;  // first: libjpeg hands back a pointer to it
   std::jmp_buf jump;
   char text[JMSG_LENGTH_MAX];
-  bool ended_early;  // of a file that is read: the end marker is missing
+  bool ended_early;  // the end marker of the file is missing
 };
 
 [[noreturn]] inline void OnJpegError(j_common_ptr codec) {

@@ -13,16 +13,16 @@
 namespace facet {
 namespace {
 
-// A progressive file of a few kilobytes can ask for thousands of scans, each a pass over the whole image. Encoders
-// write some ten; as many blocks as this are decoded in all, but so many scans of any image.
+// A progressive file of a few kilobytes can have thousands of scans, each a pass over the whole image; encoders write
+// about ten. Limits the total number of decoded blocks, but allows this number of scans for any image.
 constexpr std::uint64_t kMaxBlocks = std::uint64_t{1} << 28;
 constexpr std::uint64_t kFewScans = 32, kMaxScans = 500;
 
-// Warnings (level -1) that mean lost picture data are errors here; libjpeg would fill the hole with grey.
+// Warnings (level -1) about lost image data are treated as errors, because libjpeg would fill the gap with grey.
 void OnMessage(j_common_ptr codec, int level) {
   if (level >= 0) return;
   switch (codec->err->msg_code) {
-    case JWRN_JPEG_EOF:  // where a scan still wants bits, JWRN_HIT_MARKER follows
+    case JWRN_JPEG_EOF:  // if a scan needs more bits, JWRN_HIT_MARKER follows
       reinterpret_cast<JpegErrors*>(codec->err)->ended_early = true;
       break;
     case JWRN_HIT_MARKER:
@@ -61,9 +61,9 @@ std::uint64_t BlockCount(const jpeg_decompress_struct& decoder) {
   return count;
 }
 
-// A progressive image sends its coefficients bit by bit: all bits of all have been there.
+// Whether all bits of all coefficients have been read: a progressive image stores them in several scans.
 bool IsWhole(const jpeg_decompress_struct& decoder) {
-  if (decoder.coef_bits == nullptr) return false;  // not progressive: nobody counts
+  if (decoder.coef_bits == nullptr) return false;  // not progressive: not tracked
   for (int i = 0; i < decoder.num_components; ++i) {
     for (int k = 0; k < DCTSIZE2; ++k) {
       if (decoder.coef_bits[i][k] != 0) return false;
@@ -72,21 +72,22 @@ bool IsWhole(const jpeg_decompress_struct& decoder) {
   return true;
 }
 
-// The coefficients of whole pictures in several scans, an array for each component. libjpeg's own are in small pages,
-// whose first touch takes an eighth of the time of a progressive picture.
+// Memory for the coefficients of images with several scans, one array for each component. libjpeg's own arrays are in
+// small pages, whose page faults take an eighth of the time of decoding a progressive image.
 struct Coefficients {
   void* arrays[MAX_COMPONENTS];
   int count;
 };
 
-// The array is its rows: libjpeg only hands it back.
+// The virtual array is just its rows: libjpeg treats the type as opaque.
 jvirt_barray_ptr RequestCoefficients(j_common_ptr codec, int pool, boolean, JDIMENSION row_blocks, JDIMENSION row_count,
                                      JDIMENSION) {
-  constexpr std::uintptr_t kAlignment = 64;  // libjpeg asks for 32
+  constexpr std::uintptr_t kAlignment = 64;  // libjpeg needs 32
   auto* all = static_cast<Coefficients*>(codec->client_data);
   auto* rows = static_cast<JBLOCKARRAY>(codec->mem->alloc_large(codec, pool, row_count * sizeof(JBLOCKROW)));
   const std::size_t bytes = std::size_t(row_blocks) * row_count * sizeof(JBLOCK) + kAlignment;
-  // Zeros; of a large picture, as a rule, they take no memory until they are touched, which a broken file may never do.
+  // Zeros. Those of a large image usually take no physical memory until they are touched, which never happens for much
+  // of a broken file.
   void* const memory = all->count < MAX_COMPONENTS ? std::calloc(bytes, 1) : nullptr;
   if (memory == nullptr) ERREXIT1(codec, JERR_OUT_OF_MEMORY, 0);
   all->arrays[all->count++] = memory;
@@ -122,15 +123,15 @@ bool Start(jpeg_decompress_struct* decoder, JpegErrors* errors, const unsigned c
   }
   decoder->dct_method = JDCT_ISLOW;
   decoder->do_fancy_upsampling = TRUE;
-  decoder->do_block_smoothing = FALSE;  // guesses what a file leaves out; differs between versions
+  decoder->do_block_smoothing = FALSE;  // it guesses missing data, and differs between versions
   return true;
 }
 
-// The next `count` rows, the first of which is row `first` of the picture.
+// Decodes the next `count` rows, of which the first is row `first` of the image.
 bool ReadRows(jpeg_decompress_struct* decoder, JpegErrors* errors, JSAMPROW* rows, JDIMENSION first, JDIMENSION count) {
   if (setjmp(errors->jump) != 0) return false;
   if (first == 0) {
-    jpeg_start_decompress(decoder);  // of several scans, reads all
+    jpeg_start_decompress(decoder);  // reads all scans, if there are several
     if (errors->ended_early && jpeg_has_multiple_scans(decoder) && !IsWhole(*decoder)) {
       std::snprintf(errors->text, sizeof errors->text, "scans are missing at its end");
       return false;
@@ -164,7 +165,7 @@ struct Decoder {
   Decoder& operator=(const Decoder&) = delete;
 };
 
-// Naive inks, as the browsers' fallback without a colour profile. Adobe's files hold 255 - ink.
+// Simple CMYK conversion, as browsers do without a colour profile. Adobe's files store 255 - ink.
 void CmykToRgb(const std::vector<std::byte>& cmyk, bool inverted, Image& image) {
   const auto* from = reinterpret_cast<const unsigned char*>(cmyk.data());
   auto* to = image.As<unsigned char>();
@@ -179,10 +180,10 @@ void CmykToRgb(const std::vector<std::byte>& cmyk, bool inverted, Image& image) 
 
 }  // namespace
 
-// From segment to segment up to the frame header (SOF).
+// Skips segments up to the frame header (SOF).
 void ProbeJpeg(const FileStart& file, ImageHeader& header) {
   for (std::size_t at = 2; at < file.Size();) {
-    // As libjpeg does: bytes that belong to nothing are passed over, and 0xFF may be repeated.
+    // Like libjpeg, skips stray bytes, and accepts a repeated 0xFF.
     while (at < file.Size() && file.Byte(at) != 0xFF) ++at;
     while (at < file.Size() && file.Byte(at) == 0xFF) ++at;
     const std::uint32_t marker = file.Byte(at++);

@@ -11,10 +11,10 @@
 namespace facet {
 namespace {
 
-// Where the file goes. libjpeg's own target in memory loses hold of its memory where there is too little.
+// A destination in memory. libjpeg's own leaks its memory when an allocation fails.
 struct Target {
   jpeg_destination_mgr manager;  // first: libjpeg hands back a pointer to it
-  JOCTET* bytes;                 // by std::malloc
+  JOCTET* bytes;                 // allocated by std::malloc
   std::size_t room;
 };
 
@@ -54,7 +54,7 @@ bool Encode(jpeg_compress_struct* encoder, JpegErrors* errors, const Image* imag
   jpeg_start_compress(encoder, TRUE);
   const std::size_t row_bytes = static_cast<std::size_t>(image->width) * static_cast<std::size_t>(image->channels);
   while (encoder->next_scanline < encoder->image_height) {
-    // libjpeg does not write to it; its interface knows no const.
+    // libjpeg does not write to it, but its interface lacks const.
     auto* row = const_cast<JSAMPLE*>(image->As<JSAMPLE>()) + encoder->next_scanline * row_bytes;
     jpeg_write_scanlines(encoder, &row, 1);
   }

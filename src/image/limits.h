@@ -1,4 +1,4 @@
-// What every decoder checks before it asks for memory.
+// Checks that every decoder makes before it allocates memory.
 #pragma once
 
 #include <cstddef>
@@ -16,19 +16,19 @@ namespace facet {
 // (codec.h); the message names the size.
 void CheckImageSize(std::uint64_t width, std::uint64_t height, const std::string& name);
 
-// CheckImageSize(), and counts `rows` of the image at `bytes_per_pixel` against the memory budget for as long as it is
-// being decoded. Throws Error(OutOfMemory) where that is too much.
+// CheckImageSize(), and charges `rows` rows of the image at `bytes_per_pixel` to the memory budget for the lifetime of
+// the lease. Throws Error(OutOfMemory) if that exceeds the budget.
 MemoryLease LeaseImage(std::uint64_t width, std::uint64_t height, std::uint64_t rows, std::uint64_t bytes_per_pixel,
                        const std::string& name);
 
-// As RowReceiver; it may take the rows away where they are the whole image.
+// As RowReceiver, but may move the rows away if they are the whole image.
 using PieceReceiver = std::function<void(Image& rows, int height)>;
 
-// Makes room for `count` bytes without touching them: a file that ends early takes no more than what it held. Throws
-// Error(OutOfMemory) when the machine has no more.
+// Reserves `count` bytes without touching them, so that a truncated file takes only memory for what it contains. Throws
+// Error(OutOfMemory) if the machine has no more.
 void ReservePixels(std::vector<std::byte>& pixels, std::size_t count, const std::string& name);
 
-// `count` bytes of value 0.
+// Allocates `count` zeroed bytes.
 std::vector<std::byte> AllocatePixels(std::size_t count, const std::string& name);
 
 }  // namespace facet

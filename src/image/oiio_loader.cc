@@ -38,7 +38,7 @@ bool Find(void* library, const char* name, Function* function) {
 }
 
 Module Open(const std::vector<fs::path>& candidates) {
-  std::string trouble;  // of a module that is there but does not open: more telling than that others are not there
+  std::string trouble;  // of a module that exists but cannot be opened, the most useful error
   for (const fs::path& path : candidates) {
     std::error_code ignored;
     if (path.has_parent_path() && !fs::exists(path, ignored)) continue;
@@ -77,7 +77,7 @@ Module Get() {
   return *opened;
 }
 
-// The same error, with the picture that needed the module.
+// The same error, with the name of the image that needed the module.
 Module GetFor(const std::string& name, const char* need) {
   try {
     return Get();
@@ -126,7 +126,7 @@ Image DecodeWithOiio(std::span<const std::byte> bytes, std::string_view extensio
   const Module module = GetFor(name, "not PNG, JPEG, WebP or Radiance, and ");
   FacetOiioPicture picture{};
   char message[kMessageSize] = {};
-  // The module's pixels and their copy.
+  // For the module's pixels and their copy.
   const std::uint64_t most = MemoryBudget::Current().Left() / 2;
   const int result = module.decode(bytes.data(), bytes.size(), std::string(extension).c_str(), kMaxImageSide,
                                    kMaxImagePixels, most, as_stored, &picture, message, sizeof message);
@@ -153,7 +153,7 @@ std::vector<std::byte> EncodeWithOiio(const std::string& extension, const Image&
   picture.channels = image.channels;
   picture.type = static_cast<std::int32_t>(image.type);
   picture.encoding = static_cast<std::int32_t>(image.encoding);
-  picture.pixels = const_cast<std::byte*>(image.bytes.data());  // the structure serves reading too
+  picture.pixels = const_cast<std::byte*>(image.bytes.data());  // the structure is also used for reading
   picture.size = image.bytes.size();
   char message[kMessageSize] = {};
   void* bytes = nullptr;

@@ -38,7 +38,7 @@ TypeDesc TypeOf(ChannelType type) {
   return type == ChannelType::U8 ? TypeDesc::UINT8 : type == ChannelType::U16 ? TypeDesc::UINT16 : TypeDesc::FLOAT;
 }
 
-// A file with these bytes, in memory, for the readers that want a name; gone with the object.
+// A file in memory with these bytes, for readers that need a file name; it lives as long as the object.
 class MemoryFile {
  public:
   explicit MemoryFile(std::string_view bytes) : descriptor_(::memfd_create("facet image", MFD_CLOEXEC)) {
@@ -63,8 +63,8 @@ class MemoryFile {
   int descriptor_;
 };
 
-// Takes what is written to a file. OpenImageIO's own class cuts off what stands behind a place that is written anew, as
-// TIFF's directory is.
+// Receives what is written to a file. OpenImageIO's own class truncates the file behind bytes that are rewritten, which
+// TIFF does with its directory.
 class MemoryOutput final : public OIIO::Filesystem::IOProxy {
  public:
   MemoryOutput() : IOProxy("", Write) {}
@@ -79,7 +79,7 @@ class MemoryOutput final : public OIIO::Filesystem::IOProxy {
     if (offset < 0) return 0;
     const auto at = static_cast<std::size_t>(offset);
     bytes_.resize(std::max(bytes_.size(), at + count));
-    if (count > 0) std::memcpy(bytes_.data() + at, from, count);  // of nothing, `from` may be null
+    if (count > 0) std::memcpy(bytes_.data() + at, from, count);  // `from` may be null for 0 bytes
     return count;
   }
   const std::vector<unsigned char>& bytes() const { return bytes_; }
@@ -96,13 +96,13 @@ std::string OneLine(std::string text) {
   return text;
 }
 
-// Which of the file's channels make the picture: grey, grey + alpha, RGB or RGBA at the front.
+// The channels of the file that form the image: grey, grey + alpha, RGB or RGBA at the front.
 int UsedChannels(const ImageSpec& spec) {
   if (spec.nchannels >= 3) return spec.nchannels >= 4 && spec.alpha_channel == 3 ? 4 : 3;
   return spec.nchannels == 2 && spec.alpha_channel == 1 ? 2 : 1;
 }
 
-// Straight alpha where the reader gave associated: colour / alpha; where alpha is 0 the colour stays.
+// Converts associated to straight alpha: colour / alpha. Where alpha is 0 the colour is not changed.
 void Unassociate(FacetOiioPicture& picture) {
   const std::size_t pixels = std::size_t(picture.width) * std::size_t(picture.height);
   const std::size_t channels = static_cast<std::size_t>(picture.channels);
@@ -197,7 +197,7 @@ void Encode(const std::string& extension, const FacetOiioPicture& picture, bool 
   };
   auto output = ImageOutput::create(extension);
   if (!output) fail(OIIO::geterror());
-  // Files are written by facet itself: only into memory here.
+  // Only writes to memory; facet itself writes the file.
   MemoryOutput memory;
   if (!output->supports("ioproxy") || !output->set_ioproxy(&memory)) fail("this format is not encoded in memory");
   const TypeDesc type = TypeOf(static_cast<ChannelType>(picture.type));
@@ -213,12 +213,12 @@ void Encode(const std::string& extension, const FacetOiioPicture& picture, bool 
   const bool has_alpha = picture.channels == 2 || picture.channels == 4;
   spec.alpha_channel = has_alpha ? picture.channels - 1 : -1;
   if (has_alpha && !premultiplied) spec.attribute("oiio:UnassociatedAlpha", 1);
-  // In TIFF it would become EXIF data, which OpenImageIO 2.4 cannot write to memory; readers take integers for sRGB
-  // there and floats for linear, as it is.
+  // Not for TIFF, where it would become EXIF data, which OpenImageIO 2.4 cannot write to memory. Readers assume sRGB
+  // for integers and linear light for floats there, which is right.
   if (!extension.starts_with("tif")) {
     spec.attribute("oiio:ColorSpace", picture.encoding == static_cast<int>(Encoding::Linear) ? "Linear" : "sRGB");
   }
-  // OpenImageIO stamps EXR and TIFF with the present time; the file is to be a function of the picture alone.
+  // OpenImageIO writes the current time to EXR and TIFF, but the file must depend on the image only.
   spec.attribute("DateTime", "1970:01:01 00:00:00");
   for (const FacetOiioText& entry : text) spec.attribute(entry.keyword, entry.value);
   if (!output->open("picture." + extension, spec)) fail(output->geterror());
@@ -230,7 +230,7 @@ void Encode(const std::string& extension, const FacetOiioPicture& picture, bool 
   std::memcpy(*bytes, memory.bytes().data(), *size);
 }
 
-// No exception leaves the module.
+// Catches all exceptions, as none may leave the module.
 template <class Body>
 int32_t Guarded(char* message, std::size_t message_size, Body&& body) noexcept {
   const auto say = [&](const char* text) {
@@ -238,7 +238,7 @@ int32_t Guarded(char* message, std::size_t message_size, Body&& body) noexcept {
     message[message_size - 1] = '\0';
   };
   try {
-    // Error texts are kept per thread; one of an earlier call shall not show up in this one.
+    // Error texts are kept per thread; this discards that of an earlier call.
     OIIO::geterror();
     body();
     return FACET_OIIO_OK;

@@ -15,8 +15,9 @@ namespace facet {
 // See ImageFormat::probe.
 void ProbePng(const FileStart& file, ImageHeader& header);
 
-// See DecodeImage; gives pieces of `piece_rows` rows, the last maybe fewer. Every pixel must be there and the checksums
-// of all that makes them be right; what is broken elsewhere is Image::damage of the last piece.
+// See DecodeImage(); gives pieces of `piece_rows` rows, of which the last may have fewer. All pixels must be there, and
+// the checksums of all chunks that they depend on must be right; other damage is reported as Image::damage of the last
+// piece.
 void DecodePng(std::span<const std::byte> bytes, const std::string& name, int piece_rows, const PieceReceiver& receive);
 
 // See ReadImageText.

@@ -32,10 +32,10 @@ struct Header {
   png_uint_32 file_row_bytes;  // of the widest pass
 };
 
-// All before the pixels. False: the complaint says why.
+// Reads everything before the pixels. False: the recorded error says why.
 bool ReadHeader(png_structp png, png_infop info, Header* header) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
-  // The limits are checked by the caller, who names the size.
+  // The caller checks the limits, so that its message can state the size.
   png_set_user_limits(png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
   png_set_crc_action(png, PNG_CRC_ERROR_QUIT, PNG_CRC_WARN_DISCARD);  // for critical chunks, and for the others
   // Profiles, gamma, text: not parsed at all (tRNS is kept).
@@ -47,7 +47,7 @@ bool ReadHeader(png_structp png, png_infop info, Header* header) {
   return true;
 }
 
-// Sets every transformation. libpng makes room for its rows here: their length must have been checked before.
+// Sets all transformations. libpng allocates its rows here, so their length must have been checked before.
 bool Prepare(png_structp png, png_infop info, Header* header) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
   png_set_expand(png);  // palettes, grey below 8 bits, tRNS
@@ -59,21 +59,21 @@ bool Prepare(png_structp png, png_infop info, Header* header) {
   return true;
 }
 
-// The next `count` rows; all of an interlaced picture at once.
+// Decodes the next `count` rows; those of an interlaced image all at once.
 bool ReadRows(png_structp png, int passes, png_bytepp rows, png_uint_32 count) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
   for (int pass = 0; pass < passes; ++pass) png_read_rows(png, rows, nullptr, count);
   return true;
 }
 
-// What follows the pixels.
+// Reads what follows the pixels.
 bool ReadEnd(png_structp png) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
   png_read_end(png, nullptr);
   return true;
 }
 
-// libpng makes room for a text as long as its chunk says before it looks whether the file has one.
+// Checks the lengths of chunks, because libpng allocates a text of the stated length before it reads it.
 bool HoldsChunksBeforePixels(std::span<const std::byte> bytes) {
   for (std::size_t at = 8; at + 12 <= bytes.size();) {  // 12: length, type and checksum
     std::size_t length = 0;
@@ -82,10 +82,10 @@ bool HoldsChunksBeforePixels(std::span<const std::byte> bytes) {
     if (length > bytes.size() - at - 12) return false;
     at += 12 + length;
   }
-  return true;  // libpng misses the pixels
+  return true;  // libpng will report missing pixels
 }
 
-// All chunks before the pixels, their texts unpacked.
+// Reads all chunks before the pixels, and decompresses their texts.
 bool ReadInfo(png_structp png, png_infop info) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
   png_set_user_limits(png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
@@ -98,8 +98,8 @@ bool ReadInfo(png_structp png, png_infop info) {
   return true;
 }
 
-// A transparent colour (tRNS) makes an alpha channel; it comes before the pixels (IDAT).
-// True when the chunks up to there are in `file`; false leaves the question open.
+// Looks for a transparent colour (tRNS), which adds an alpha channel, among the chunks before the pixels (IDAT). False:
+// the chunks up to there are not all in `file`, so that it is not known.
 bool FindPngTransparency(const FileStart& file, bool& found) {
   found = false;
   std::size_t at = 8;
@@ -143,7 +143,7 @@ void DecodePng(std::span<const std::byte> bytes, const std::string& name, int pi
   Header header{};
   if (!ReadHeader(reader.png, reader.info, &header)) throw fail();
   CheckImageSize(header.width, header.height, name);
-  // Deflate's best case: whoever claims more never had the pixels, and shall not get their memory.
+  // Deflate's best ratio: a file that states more pixels cannot contain them, so no memory is allocated for it.
   constexpr std::uint64_t kMostUnpacked = 1032;
   if (std::uint64_t(header.file_row_bytes) * header.height / kMostUnpacked > bytes.size()) {
     throw Error(ErrorCode::InvalidInput, "broken PNG: the file is cut off", name);

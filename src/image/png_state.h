@@ -1,5 +1,5 @@
-// libpng's state for one file. libpng reports errors by longjmp, which must not skip destructors: every function that
-// calls setjmp holds plain data only, and whoever owns memory calls those functions.
+// libpng's state for one file. libpng reports errors by longjmp, which must not skip destructors: functions that call
+// setjmp have plain data only, and the functions that own memory call them.
 #pragma once
 
 #include <png.h>

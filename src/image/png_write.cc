@@ -21,7 +21,7 @@
 namespace facet {
 namespace {
 
-// Called from C: exceptions become a libpng error.
+// Called from C, so exceptions are converted to a libpng error.
 void AppendBytes(png_structp png, png_bytep from, std::size_t count) {
   bool fits = true;
   try {
@@ -42,7 +42,7 @@ struct WritePlan {
   int text_count;
 };
 
-// All that stands before the pixels.
+// Writes everything before the pixels.
 bool WriteHead(png_structp png, png_infop info, const WritePlan* plan) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
   constexpr int kColorTypes[] = {PNG_COLOR_TYPE_GRAY, PNG_COLOR_TYPE_GRAY_ALPHA, PNG_COLOR_TYPE_RGB,
@@ -59,7 +59,7 @@ bool WriteHead(png_structp png, png_infop info, const WritePlan* plan) {
   return true;
 }
 
-// As many chunks as hold `data`, one at least.
+// Writes `data` in as many chunks as it needs, at least one.
 bool WriteChunks(png_structp png, const char* type, png_const_bytep data, std::size_t size) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
   constexpr std::size_t kMost = std::size_t{1} << 30;  // a chunk has less than 2^31 bytes
@@ -71,14 +71,14 @@ bool WriteChunks(png_structp png, const char* type, png_const_bytep data, std::s
   return true;
 }
 
-constexpr std::size_t kPieceRows = 64;  // that a thread filters, or filters and packs, at a time
+constexpr std::size_t kPieceRows = 64;  // that a thread filters, or filters and compresses, at a time
 
 std::size_t RowBytes(const Image& image) {
   return std::size_t(image.width) * std::size_t(image.channels) * SizeOf(image.type);
 }
 
-// Rows [begin, end) as a PNG holds them, before compression: big-endian numbers less those of the row above (the filter
-// Up). `above`: the row above the image.
+// Rows [begin, end) as PNG stores them before compression: big-endian components minus those of the row above (filter
+// Up). `above`: the row above the first one.
 void FilterRows(const Image& image, std::size_t begin, std::size_t end, const unsigned char* above,
                 unsigned char* out) {
   const std::size_t row_bytes = RowBytes(image);
@@ -116,12 +116,12 @@ PageVector<unsigned char> Pack(const Image& image) {
   return packed;
 }
 
-// A piece of a deflate stream that ends on a byte and is not its last. Pieces share no history, so that threads can
-// pack them apart. Measured on a picture of 8192 x 8192: level 1 takes 0.78 s and makes 18.6 MB, level 2 0.85 s
-// and 18.0 MB, level 4 1.44 s and 15.2 MB (libdeflate, which has no pieces, 15.7 MB).
+// A piece of a deflate stream that ends at a byte boundary and is not the last. Pieces share no history, so that
+// threads can compress them independently. Measured on a picture of 8192 x 8192: level 1 takes 0.78 s and makes 18.6
+// MB, level 2 0.85 s and 18.0 MB, level 4 1.44 s and 15.2 MB (libdeflate, which has no pieces, 15.7 MB).
 std::vector<unsigned char> PackPiece(std::vector<unsigned char>& filtered) {
   constexpr int kLevel = 2, kRawWindow = -15, kMostMemory = 9;
-  constexpr std::size_t kMarker = 16;  // more than the end of a piece takes
+  constexpr std::size_t kMarker = 16;  // more than the end marker of a piece takes
   z_stream stream{};
   if (deflateInit2(&stream, kLevel, Z_DEFLATED, kRawWindow, kMostMemory, Z_DEFAULT_STRATEGY) != Z_OK) {
     throw Error(ErrorCode::OutOfMemory, "no memory for zlib");
@@ -175,7 +175,7 @@ void AppendHead(std::vector<std::byte>& out, const Image& form, const ImageText&
   for (const auto& [key, value] : text) {
     CheckKeyword(key);
     png_text chunk{};
-    // libpng's structure is shared with reading and takes its strings without const.
+    // libpng uses the same structure for reading, so its strings are not const.
     chunk.key = const_cast<png_charp>(key.c_str());
     chunk.text = const_cast<png_charp>(value.c_str());
     const bool ascii = IsAscii(value);

@@ -43,7 +43,7 @@ class Reader {
     at_ += count;
   }
 
-  // Without its line break.
+  // Reads a line without its line break.
   std::string_view Line() {
     const char* begin = reinterpret_cast<const char*>(bytes_.data()) + at_;
     const std::size_t left = bytes_.size() - at_;
@@ -56,7 +56,7 @@ class Reader {
     return line;
   }
 
-  // How much pixel data there may still be.
+  // The number of bytes that remain for pixel data.
   std::size_t Left() const { return bytes_.size() - at_; }
 
  private:
@@ -75,7 +75,8 @@ struct Axis {
   std::uint64_t length = 0;
 };
 
-// "-Y 512", or the like, from the front of `line`. False: it cannot be read; without a letter, not even its name.
+// Reads an axis like "-Y 512" from the start of `line`. False: it is malformed; if there is no letter, even its name
+// is.
 bool TakeAxis(std::string_view& line, Axis& axis) {
   while (line.starts_with(' ')) line.remove_prefix(1);
   if (line.size() < 4 || (line[0] != '+' && line[0] != '-') || (line[1] != 'X' && line[1] != 'Y') || line[2] != ' ') {
@@ -123,8 +124,8 @@ void ReadPlanes(Reader& reader, std::vector<Rgbe>& row, std::vector<std::uint8_t
   }
 }
 
-// Old run lengths: the pixel (1, 1, 1, n) repeats the one before it n times; several in a row are the bytes of a
-// longer count, lowest first. `first` has been read already. A flat picture is one that never repeats.
+// Old run lengths: the pixel (1, 1, 1, n) repeats the one before it n times; several in a row are the bytes of a longer
+// count, lowest first. `first` has been read already. A flat (uncompressed) image is one without repetitions.
 void ReadOldRow(Reader& reader, Rgbe first, std::vector<Rgbe>& row) {
   unsigned shift = 0;
   Rgbe pixel = first;
@@ -180,7 +181,7 @@ Image DecodeRadiance(std::span<const std::byte> bytes, const std::string& name) 
   }
   const Resolution size = ParseResolution(reader.Line(), reader, name);
   const MemoryLease lease = LeaseImage(size.width, size.height, size.height, 3 * sizeof(float), name);
-  // The shortest row has 4 bytes: refuse a size that the file cannot hold before asking for its memory.
+  // A row has at least 4 bytes, so a size that the file cannot contain is refused before memory is allocated for it.
   if (reader.Left() / 4 < size.height) reader.Fail("the file is cut off");
 
   Image image;
@@ -198,7 +199,7 @@ Image DecodeRadiance(std::span<const std::byte> bytes, const std::string& name) 
   std::vector<std::uint8_t> plane(size.width);
   for (std::size_t y = 0; y < size.height; ++y) {
     ReadRow(reader, row, plane);
-    image.bytes.resize(row_bytes * (y + 1));  // no row is touched before there is one in the file
+    image.bytes.resize(row_bytes * (y + 1));  // memory of a row is touched only when the file has the row
     float* to = image.As<float>() + 3 * size.width * y;
     for (std::size_t x = 0; x < size.width; ++x) {
       const Rgbe& pixel = row[size.right_to_left ? size.width - 1 - x : x];

@@ -1,4 +1,4 @@
-// Radiance pictures (.hdr, .pic).
+// Radiance HDR files (.hdr, .pic).
 #pragma once
 
 #include <cstddef>
@@ -14,9 +14,9 @@ namespace facet {
 void ProbeRadiance(const FileStart& file, ImageHeader& header);
 
 // See DecodeImage: F32, 3 channels, linear. RGBE in any of the three packings (flat, old and new run lengths), rows in
-// either direction; XYZE and pictures stored by columns are Unsupported. A number is mantissa * 2^(exponent - 136),
-// exactly; EXPOSURE lines are ignored, as every other reader does.
-// Source: Ward, "Real Pixels", Graphics Gems II, 1991; and the format's description in the Radiance file formats paper.
+// either direction; XYZE and images stored by columns are Unsupported. A component is exactly mantissa * 2^(exponent -
+// 136); EXPOSURE lines are ignored, as all other readers do. Source: Ward, "Real Pixels", Graphics Gems II, 1991; and
+// the format's description in the Radiance file formats paper.
 Image DecodeRadiance(std::span<const std::byte> bytes, const std::string& name);
 
 }  // namespace facet

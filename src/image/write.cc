@@ -1,6 +1,6 @@
-// WriteImage of facet/image.h. A format gets the picture in the form that its row of formats.cc says: one that holds
-// floats alone, linear light (8 and 16 bits are decoded first); one that holds bytes alone, 8 bits; the others the
-// numbers as they are. A format that gets no alpha takes opaque pictures only.
+// WriteImage() of facet/image.h. The image is converted to what the format's row in formats.cc says: formats of floats
+// get linear light (8 and 16 bits are decoded first), formats of bytes get 8 bits, others get the components as they
+// are. Formats without alpha accept opaque images only.
 #include <array>
 #include <string>
 #include <vector>
@@ -44,8 +44,8 @@ Image Bytes(const Image& image, const std::filesystem::path& path) {
   return WithType(image, ChannelType::U8);
 }
 
-// `keep_glow`: a float picture's colour where alpha is 0 is light without coverage, and stays (as decoding keeps it);
-// in integers it is whatever the program that made the picture left there.
+// `keep_glow`: in float images, colour with alpha 0 is light without coverage and is kept, as decoding does; in integer
+// images it has no meaning.
 void Premultiply(Image& image, bool keep_glow) {
   if (!HasAlpha(image)) return;
   const std::size_t channels = static_cast<std::size_t>(image.channels);
@@ -57,7 +57,7 @@ void Premultiply(Image& image, bool keep_glow) {
   }
 }
 
-// The image in the form that the format holds: itself, or `converted`.
+// The image in the form that the format stores: `image` itself, or `converted`.
 const Image& FormFor(const ImageFormat& format, const Image& image, const std::filesystem::path& path,
                      Image& converted) {
   if (format.Holds(ChannelType::U16)) return image;
@@ -92,7 +92,7 @@ Image StoredForm(const std::filesystem::path& path, const Image& image) {
 void WriteImageWithText(const std::filesystem::path& path, const Image& image, const TextMaker& make_text) {
   const ImageFormat& format = FormatToWrite(path);
   CheckImage(image, path.c_str());
-  OutputFile file(path);  // before the work: it may not be writable
+  OutputFile file(path);  // first, because it may not be writable
   try {
     Image converted;
     file.Write(Encode(format, FormFor(format, image, path, converted), make_text));

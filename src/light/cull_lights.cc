@@ -6,7 +6,8 @@ namespace facet {
 
 void LightsReaching(const LightingData& lighting, const glm::dvec3& low, const glm::dvec3& high,
                     std::vector<PunctualLight>& reaching) {
-  // Shading rounds: squares of distances, and positions in proportion to how far they are from the eye.
+  // A margin for the rounding in shading: of squared distances, and of positions, in proportion to their distance from
+  // the eye.
   constexpr double kBeyond = 1.0 + 1e-3, kRounding = 1e-6;
   const double extent = std::max(glm::length(low), glm::length(high));
   reaching.clear();

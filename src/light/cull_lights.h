@@ -1,4 +1,4 @@
-// Tiles are lit by the lights that reach them.
+// Light culling for tiles.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -8,9 +8,9 @@
 
 namespace facet {
 
-// Of the lights of `lighting`, in their order, those that may reach the box from `low` to `high` (relative to the eye,
-// world axes). All others give nothing there, exactly: a light with a range ends at it (KHR_lights_punctual). Lights
-// without one reach everything.
+// Finds the lights of `lighting`, in their order, that may reach the box from `low` to `high` (relative to the eye,
+// world axes). All others contribute exactly 0 there: by KHR_lights_punctual a light is 0 beyond its range. Lights
+// without a range reach everything.
 void LightsReaching(const LightingData& lighting, const glm::dvec3& low, const glm::dvec3& high,
                     std::vector<PunctualLight>& reaching);
 

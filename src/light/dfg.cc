@@ -10,12 +10,12 @@
 #define FACET_LIGHT_DFG_TASK
 namespace facet {
 
-// One row of the table.
+// Inputs and outputs of the kernel that computes one row of the table.
 struct DfgRowTask {
   float alpha;
   int polar_count, azimuth_count;
   const float* polar;         // tan(theta_h) / alpha
-  const float* polar_weight;  // see IntegrateDfgRow; they hold every constant factor
+  const float* polar_weight;  // see IntegrateDfgRow; constant factors included
   const float* cos_azimuth;   // of half vectors, in [0, pi]
   const float* n_dot_v;       // DfgTable::kColumns of them, > 0
   float* albedo;              // A, B for each
@@ -30,8 +30,8 @@ namespace HWY_NAMESPACE {
 
 // The integral of D V n_dot_l dl over half vectors, with dl = 4 v_dot_h dh. In x = tan(theta_h) / alpha and y = ln x:
 //   D dh = x^2 / (1 + x^2)^2 / (pi cos(theta_h)) dy dphi,
-// so that the part that varies fast is the same for every alpha. Steps even in y reach the far tails too, which grazing
-// views reflect: points even in D's cumulative distribution leave them out and lose up to 5 %.
+// so that the part that varies fast is the same for every alpha. Equal steps in y also reach the far tails, which matter
+// at grazing views; points evenly spaced in D's cumulative distribution miss them and lose up to 5 %.
 void IntegrateDfgRow(const DfgRowTask& task) {
   static_assert(DfgTable::kColumns % kMaxLanes == 0);
   for (int column = 0; column < DfgTable::kColumns; column += static_cast<int>(LaneCount())) {

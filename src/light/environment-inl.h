@@ -1,4 +1,4 @@
-// Reading an EnvironmentMap. Directions are in the environment's own axes; see lighting-inl.h for the frame's.
+// Lookups in an EnvironmentMap. Directions are in the environment's axes; lighting-inl.h rotates them from world axes.
 
 #if defined(FACET_LIGHT_ENVIRONMENT_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef FACET_LIGHT_ENVIRONMENT_INL_H_
@@ -15,7 +15,7 @@ HWY_BEFORE_NAMESPACE();
 namespace facet {
 namespace HWY_NAMESPACE {
 
-// Radiance reflected along `direction` by a surface of that roughness; linear between the two nearest levels.
+// The radiance reflected along `direction` by a surface of this roughness, interpolated between the two nearest levels.
 template <class T>
 HWY_INLINE Vec3<T> PrefilteredRadiance(const EnvironmentMap& map, Vec3<T> direction, T perceptual_roughness) {
   const float last = static_cast<float>(EnvironmentMap::kLevels - 1);
@@ -37,7 +37,7 @@ HWY_INLINE Vec3<T> IrradianceOverPi(const EnvironmentMap& map, Vec3<T> normal) {
                              IntOf<T>(map.irradiance.offset), OctahedronFromDirection(normal));
 }
 
-// Bilinear reading of an equirectangular picture of 4-float pixels in a direction (any length but zero).
+// Bilinear lookup in an equirectangular image of 4-float pixels. `direction`: of any length but 0.
 template <class T>
 HWY_INLINE Vec3<T> SampleEquirectangular(const float* picture, std::int32_t width, std::int32_t height,
                                          Vec3<T> direction) {
@@ -65,7 +65,7 @@ HWY_INLINE Vec3<T> SampleEquirectangular(const float* picture, std::int32_t widt
   return WeighFour<T>(picture, {i00, i10, i00 + row, i10 + row}, {left * above, fx * above, left * fy, fx * fy});
 }
 
-// What is seen in a direction: the picture where it was kept, else level 0.
+// The environment as it is visible in a direction: from the image if that was kept, otherwise from level 0.
 template <class T>
 HWY_INLINE Vec3<T> SharpRadiance(const EnvironmentMap& map, Vec3<T> direction) {
   if (map.picture_data != nullptr) {

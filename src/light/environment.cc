@@ -26,22 +26,23 @@ float* RowOf(EnvironmentMap* map, const Level& level, std::int32_t row) {
   return map->texels.data() + level.offset + std::ptrdiff_t(row) * (level.size + 1) * 4;
 }
 
-// The chain: ever smaller squares that lobes are read from. Other than an EnvironmentMap's, these have a texel in the
-// middle of each cell, so that a texel is the mean of four of the next larger square, and a border of one texel, which
-// holds the neighbours across the fold. The fourth number of a texel is its solid angle.
+// The chain is the mip pyramid that lobes are sampled from. Unlike those of an EnvironmentMap, its texels lie at the
+// centres of cells, so that each is the mean of four texels of the next larger level, and each level has a border of
+// one texel, which holds the neighbours across the octahedron's fold. The fourth component of a texel is its solid
+// angle.
 struct Cells {
   std::int32_t size = 0;
   std::int32_t offset = 0;
 
   std::int32_t Floats() const { return (size + 2) * (size + 2) * 4; }
-  std::int32_t Origin() const { return offset + (size + 3) * 4; }  // of texel (0, 0)
+  std::int32_t Origin() const { return offset + (size + 3) * 4; }  // the offset of texel (0, 0)
 };
 
 float* RowOf(float* texels, const Cells& cells, std::int32_t row) {
   return texels + cells.Origin() + std::ptrdiff_t(row) * (cells.size + 2) * 4;
 }
 
-// Copies each border texel from its neighbour across the fold: beyond an edge the map goes on mirrored along that edge.
+// Fills the border with the neighbours across the fold: beyond an edge the map continues, mirrored along that edge.
 void FillBorder(float* texels, const Cells& level) {
   const std::int32_t n = level.size;
   const auto at = [&](std::int32_t i, std::int32_t j) { return RowOf(texels, level, j) + i * 4; };
@@ -52,14 +53,14 @@ void FillBorder(float* texels, const Cells& level) {
     copy(at(0, n - 1 - k), at(-1, k));
     copy(at(n - 1, n - 1 - k), at(n, k));
   }
-  // The four corners of the square are one direction, -Y: each one's diagonal neighbour is the opposite corner.
+  // All four corners of the square are the direction -Y, so the diagonal neighbour of each is the opposite corner.
   copy(at(n - 1, n - 1), at(-1, -1));
   copy(at(0, n - 1), at(n, -1));
   copy(at(n - 1, 0), at(-1, n));
   copy(at(0, 0), at(n, n));
 }
 
-// RGB to 4 floats a pixel; at least two rows.
+// Pads RGB to 4 floats per pixel, and doubles the row of an image that has only one.
 PageVector<float> PadPixels(const Image& rgb, std::int32_t* height) {
   const float* from = rgb.As<float>();
   const std::size_t count = rgb.PixelCount();
@@ -71,7 +72,7 @@ PageVector<float> PadPixels(const Image& rgb, std::int32_t* height) {
   return out;
 }
 
-// Half the size; both sizes are even. Neighbouring pixels subtend nearly the same angle.
+// Halves the image, whose sides are even. The four pixels are not weighted, as they subtend nearly the same angle.
 PageVector<float> HalvePicture(const PageVector<float>& in, std::int32_t width, std::int32_t height) {
   const std::size_t w = std::size_t(width) / 2, h = std::size_t(height) / 2;
   PageVector<float> out(w * h * 4);
@@ -90,7 +91,7 @@ PageVector<float> HalvePicture(const PageVector<float>& in, std::int32_t width, 
   return out;
 }
 
-// The largest square: means of the four texels around each cell.
+// The largest level of the chain: means of the four texels around each cell.
 void FillCells(EnvironmentMap* map, const Level& from, float* texels, const Cells& to) {
   ParallelFor(std::size_t(to.size), 32, [&](std::size_t begin, std::size_t end) {
     for (auto y = std::int32_t(begin); y < std::int32_t(end); ++y) {
@@ -104,7 +105,7 @@ void FillCells(EnvironmentMap* map, const Level& from, float* texels, const Cell
   FillBorder(texels, to);
 }
 
-// Means of 2 x 2 texels weighted by solid angle, which is added up.
+// The next smaller level: means of 2 x 2 texels weighted by solid angle. The solid angles are summed.
 void HalveSquare(float* texels, const Cells& from, const Cells& to) {
   ParallelFor(std::size_t(to.size), 32, [&](std::size_t begin, std::size_t end) {
     for (auto y = std::int32_t(begin); y < std::int32_t(end); ++y) {
@@ -125,11 +126,11 @@ void HalveSquare(float* texels, const Cells& from, const Cells& to) {
   FillBorder(texels, to);
 }
 
-// Directions about +Z distributed as GGX reflects light when view and normal are +Z, each with the square of `chain`
-// whose texels are as large as its share of the lobe: filtered importance sampling (Krivanek and Colbert, 2008,
-// Real-time Shading with Filtered Importance Sampling, equation 12; without their bias of one level, because bilinear
-// reading makes neighbouring samples overlap anyway, and the bias cost 8 % of a small lamp's peak). Half vectors are
-// taken from GGX's distribution at Hammersley's points; a direction's weight is n_dot_l (Karis, 2013).
+// Sample directions of the GGX lobe whose view and normal are +Z, each with the level of `chain` whose texels are as
+// large as the sample's share of the lobe. This is filtered importance sampling (Krivanek and Colbert, 2008, Real-time
+// Shading with Filtered Importance Sampling, equation 12), without their bias of one level: bilinear filtering makes
+// neighbouring samples overlap anyway, and the bias cost 8 % of a small lamp's peak. Half vectors are distributed as
+// GGX, from Hammersley points; the weight of a direction is n_dot_l (Karis, 2013).
 std::vector<LobeSample> MakeLobe(double alpha, int count, const std::vector<Cells>& chain) {
   std::vector<LobeSample> samples;
   const double base_solid_angle = 4.0 * kPiDouble / (double(chain[0].size) * double(chain[0].size));
@@ -147,7 +148,7 @@ std::vector<LobeSample> MakeLobe(double alpha, int count, const std::vector<Cell
     const double pdf = alpha * alpha / (kPiDouble * t * t) * 0.25;  // D n_dot_h / (4 v_dot_h), where v = n
     const double texels = 1.0 / (count * pdf) / base_solid_angle;
     std::size_t level = 0;
-    // sqrt(2) below the next level's edge length rounds the level to the nearest.
+    // The factor sqrt(2) rounds to the nearest level.
     for (double edge2 = 2.0; level + 1 < chain.size() && texels > edge2; edge2 *= 4.0) ++level;
     LobeSample s;
     s.x = static_cast<float>(sin_l * Cos(phi));
@@ -172,8 +173,8 @@ glm::dvec3 DirectionOfCell(std::int32_t i, std::int32_t j, std::int32_t size) {
   return glm::dvec3(x, y, z) / std::sqrt(x * x + y * y + z * z);
 }
 
-// The light of each cell of `coarse` comes from the centroid of what its cells of `fine` shine: a sun keeps its place
-// to a fraction of a coarse cell.
+// The light of each cell of `coarse` gets the direction of the centroid of the light of its cells in `fine`, so that
+// the position of a sun is kept to a fraction of a coarse cell.
 std::vector<SourceTexel> MakeSource(const float* texels, const Cells& fine, const Cells& coarse) {
   struct Moments {
     glm::dvec3 light{0.0}, area{0.0};
@@ -207,7 +208,8 @@ std::vector<SourceTexel> MakeSource(const float* texels, const Cells& fine, cons
   return source;
 }
 
-// Levels below kFirstConvolved are sampled, the others are rough enough to be summed over every texel of a small map.
+// Levels below kFirstConvolved are importance sampled. The others have lobes wide enough to be summed over all texels
+// of a small map.
 constexpr int kFirstConvolved = 4;
 constexpr std::int32_t kConvolvedSize = 32;
 static_assert(kFirstConvolved + kConvolvedLobes + 1 == EnvironmentMap::kLevels);
@@ -217,7 +219,7 @@ constexpr std::int32_t kNominalSize[EnvironmentMap::kLevels] = {
 constexpr int kSampleFactor[kFirstConvolved] = {0, 1, 2, 4};
 constexpr std::int32_t kSourceSize = 32, kCentroidSize = 128;
 constexpr std::int32_t kSmallestBase = 64;
-constexpr std::int32_t kSmallestOfChain = 8;  // coarser squares bend too much for bilinear reading
+constexpr std::int32_t kSmallestOfChain = 8;  // smaller levels are too distorted for bilinear filtering
 
 double AlphaOfLevel(int level) {
   const double perceptual_roughness = double(level) / (EnvironmentMap::kLevels - 1);
@@ -246,7 +248,7 @@ void FillSampledLevels(EnvironmentMap* map, const PageVector<float>& chain_texel
   });
 }
 
-// The rough levels.
+// Fills the levels of high roughness.
 void FillConvolvedLevels(EnvironmentMap* map, const std::vector<SourceTexel>& source) {
   ParallelFor(std::size_t(kConvolvedSize) + 1, 2, [&](std::size_t begin, std::size_t end) {
     for (auto row = std::int32_t(begin); row < std::int32_t(end); ++row) {
@@ -260,7 +262,7 @@ void FillConvolvedLevels(EnvironmentMap* map, const std::vector<SourceTexel>& so
   });
 }
 
-// Of light weighted by the cosine: what the roughest level holds.
+// Fills the irradiance map. By convolution it equals the roughest level, which is radiance weighted by the cosine.
 void FillIrradiance(EnvironmentMap* map, const std::vector<SourceTexel>& source, IrradianceMethod method) {
   if (method == IrradianceMethod::SphericalHarmonics) {
     FillIrradianceFromHarmonics(source, map->irradiance.size, RowOf(map, map->irradiance, 0));
@@ -272,7 +274,8 @@ void FillIrradiance(EnvironmentMap* map, const std::vector<SourceTexel>& source,
 
 }  // namespace
 
-// About as many texels around as the picture has: an octahedral map's equator is four half-edges of 45 degrees tilt.
+// Gives the equator about as many texels as the image's width: in an octahedral map it is four half-edges at 45
+// degrees.
 std::int32_t SharpestLevelSize(std::int32_t picture_width, std::int32_t max_size) {
   std::int32_t base = kSmallestBase;
   while (base * 2 <= picture_width / 2 && base * 2 <= max_size) base *= 2;
@@ -302,7 +305,7 @@ void LayOutLevels(std::int32_t base, EnvironmentMap& map) {
 
 std::shared_ptr<const EnvironmentMap> PrefilterEnvironment(const Image& equirectangular,
                                                            const EnvironmentOptions& options) {
-  // Kernels count in 32 bits; the same limits as for pictures that are decoded.
+  // Kernels use 32-bit indices; the limits are the same as for decoded images.
   const std::int64_t pixels = std::int64_t{equirectangular.width} * equirectangular.height;
   if (equirectangular.width > kMaxImageSide || equirectangular.height > kMaxImageSide ||
       pixels > std::int64_t{kMaxImagePixels}) {

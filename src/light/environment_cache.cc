@@ -1,8 +1,9 @@
-// Prepared environments as files of a folder: OpenEnvironment() of facet/load.h.
+// The cache of prefiltered environments, one file of a folder each: OpenEnvironment() of facet/load.h.
 //
-// A file's name is the digest of all that decides over its bits, so that it never has to be changed; its own digest
-// stands in it, so that one that was cut off or damaged is not taken for whole. It is a Header, then the texels of the
-// map, then those of the picture where that is kept: floats as they lie in memory.
+// A file's name is the digest of everything that its content depends on (the bytes of the environment image, the
+// options, the version of facet), so that an entry never becomes out of date. The content has a digest of its own, by
+// which truncated and damaged files are recognised. A file consists of a Header, the texels of all maps, and the pixels
+// of the linear image if that is kept: floats in native byte order.
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -36,26 +37,26 @@
 namespace facet {
 namespace {
 
-constexpr std::uint32_t kFormat = 1;  // of the files
+constexpr std::uint32_t kFormat = 1;  // of the cache files; raised when their layout changes
 
 struct Header {
   std::array<char, 16> magic = {'f', 'a', 'c', 'e', 't', ' ', 'l', 'i', 'g', 'h', 't', ' ', 'm', 'a', 'p', '\n'};
   std::uint32_t byte_order = 0x01020304;
   std::uint32_t format = kFormat;
   Digest key{};
-  std::int32_t size = 0;  // texels along the sharpest level
+  std::int32_t size = 0;  // of the sharpest level, in texels
   std::int32_t picture_width = 0, picture_height = 0;
   std::int32_t zero = 0;
   std::uint64_t repaired_values = 0;
-  Digest content{};  // of the other fields and the floats
+  Digest content{};  // of the other header fields and all floats
 };
 static_assert(sizeof(Header) == 112 && std::has_unique_object_representations_v<Header>, "no padding");
 
 constexpr std::size_t kPiece = std::size_t{64} << 10;
 using Scratch = std::array<std::byte, kPiece>;
 
-// The digests of pieces are digested: they can be made, and a file be read, on all threads. get(first, size, scratch)
-// gives a piece, which may lie in `scratch`.
+// Adds to `hash` the digests of the pieces that `size` bytes are divided into, instead of the bytes themselves: pieces
+// can then be read and hashed on all threads. get(first, size, scratch) returns one piece, which may lie in `scratch`.
 template <class Get>
 void AddInPieces(Sha256& hash, std::size_t size, const Get& get) {
   std::vector<Digest> pieces((size + kPiece - 1) / kPiece);
@@ -89,7 +90,8 @@ Sha256 BeginContent(Header header) {
   return hash;
 }
 
-// What PrefilterEnvironment() can make: means of numbers from 0 to kMaxRadiance, and rounding. NaN is none.
+// Whether PrefilterEnvironment() can have produced these floats: they are means of values from 0 to kMaxRadiance, apart
+// from rounding, and none is NaN.
 bool IsLight(std::span<const float> numbers) {
   constexpr float kMost = 2.0f * kMaxRadiance;
   bool fine = true;
@@ -99,7 +101,7 @@ bool IsLight(std::span<const float> numbers) {
 
 class OpenFile {
  public:
-  // Not blocking: a pipe of that name is no entry, and nobody may ever write to it.
+  // O_NONBLOCK, because opening a pipe of that name would otherwise wait for a writer.
   explicit OpenFile(const std::filesystem::path& path)
       : descriptor_(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {}
   ~OpenFile() {
@@ -108,14 +110,14 @@ class OpenFile {
   OpenFile(const OpenFile&) = delete;
   OpenFile& operator=(const OpenFile&) = delete;
 
-  // None for what is no plain file.
+  // 0 for everything that is not a regular file.
   std::uint64_t Size() const {
     struct stat status {};
     const bool plain = descriptor_ >= 0 && ::fstat(descriptor_, &status) == 0 && S_ISREG(status.st_mode);
     return plain ? std::uint64_t(status.st_size) : 0;
   }
 
-  // False where not all is there.
+  // False if the file has fewer bytes.
   bool Read(std::uint64_t offset, std::span<std::byte> to) const {
     while (!to.empty()) {
       const ssize_t count = ::pread(descriptor_, to.data(), to.size(), static_cast<off_t>(offset));
@@ -133,7 +135,8 @@ class OpenFile {
 
 class CachedEnvironment final : public EnvironmentSource {
  public:
-  // A file passes through the processor's cache: memory for it would cost more time than its digest. A pipe is kept.
+  // A regular file is only hashed, piece by piece: allocating memory for all of it would take longer than its digest.
+  // What cannot be read twice, such as a pipe, is kept in memory.
   CachedEnvironment(std::filesystem::path picture, std::filesystem::path folder)
       : picture_(std::move(picture)), folder_(std::move(folder)) {
     std::error_code ignored;
@@ -157,7 +160,7 @@ class CachedEnvironment final : public EnvironmentSource {
     const FloatEnvironment pinned;
     if (bytes_.size > 0) return std::make_shared<const Image>(DecodeImage(bytes_.Span(), picture_.string()));
     const Bytes bytes = ReadFile(picture_);
-    // Otherwise another picture would be kept in its name.
+    // Otherwise the maps of another image would be stored under this digest.
     if (DigestOf(bytes.Span()) != digest_) {
       throw Error(ErrorCode::InvalidInput, "was changed while it was in use", picture_.string());
     }
@@ -176,11 +179,11 @@ class CachedEnvironment final : public EnvironmentSource {
         header.byte_order != expected.byte_order || header.format != kFormat || header.key != key) {
       return nullptr;
     }
-    // Sizes are bounded before they are trusted: the digest can be checked only when all is in memory.
+    // Sizes are checked before memory is allocated for them, since the digest can be checked only afterwards.
     const std::int32_t width = header.picture_width, height = header.picture_height;
     const bool size_ok =
         header.size >= 64 && header.size <= options.max_size && std::has_single_bit(unsigned(header.size));
-    // One row is kept as two.
+    // PrefilterEnvironment() doubles the row of an image of height 1.
     const bool picture_ok = options.keep_picture ? width >= 1 && width <= kMaxImageSide && height >= 2 &&
                                                        height <= kMaxImageSide &&
                                                        std::uint64_t(width) * std::uint64_t(height) <= kMaxImagePixels
@@ -195,13 +198,13 @@ class CachedEnvironment final : public EnvironmentSource {
 
     Sha256 hash = BeginContent(header);
     std::uint64_t offset = sizeof(Header);
-    std::atomic<bool> is_light = true;  // the digest says only that nothing was damaged: anybody can make one
+    std::atomic<bool> is_light = true;  // the digest shows damage but not forgery, as anybody can compute it
     const auto read = [&](PageVector<float>& floats, std::size_t count) {
       floats.resize(count);
       const auto bytes = std::as_writable_bytes(std::span(floats));
       AddInPieces(hash, bytes.size(), [&](std::size_t first, std::size_t size, Scratch&) {
         const auto piece = bytes.subspan(first, size);
-        if (!file.Read(offset + first, piece)) std::ranges::fill(piece, std::byte{0});  // the digest is another then
+        if (!file.Read(offset + first, piece)) std::ranges::fill(piece, std::byte{0});  // the digest will differ
         if (!IsLight(std::span(floats).subspan(first / sizeof(float), size / sizeof(float)))) is_light = false;
         return std::span<const std::byte>(piece);
       });
@@ -234,7 +237,7 @@ class CachedEnvironment final : public EnvironmentSource {
     std::filesystem::create_directories(folder_, failure);
     if (failure) return nothing_kept + folder_.string() + ": cannot be made: " + failure.message();
     try {
-      // Others may write to the folder too: what they put there is not written through.
+      // Other users may be able to write to the folder, so symbolic links in it are not followed.
       WriteFile(PathOf(header.key), {std::as_bytes(std::span(&header, 1)), texels, picture}, OutputFile::Links::Refuse);
     } catch (const Error& error) {
       return nothing_kept + error.what();
@@ -244,7 +247,7 @@ class CachedEnvironment final : public EnvironmentSource {
 
  private:
   Digest KeyOf(const EnvironmentOptions& options) const {
-    // By name, so that a further option is not forgotten here: it would not compile.
+    // A structured binding, which does not compile if an option is added and forgotten here.
     const auto& [keep_picture, max_size, samples, irradiance] = options;
     Sha256 hash;
     hash.Add(Version());
@@ -261,7 +264,7 @@ class CachedEnvironment final : public EnvironmentSource {
   std::filesystem::path PathOf(const Digest& key) const { return folder_ / (ToHex(key) + ".environment"); }
 
   std::filesystem::path picture_, folder_;
-  Bytes bytes_;  // of what cannot be read twice
+  Bytes bytes_;  // the file's content, if it cannot be read twice
   Digest digest_;
 };
 

@@ -1,13 +1,13 @@
-// The lane work of preparing an environment. Rows of octahedral squares are those of EnvironmentMap::Level: size + 1
-// texels; `row` is in [0, size].
+// The SIMD kernels of environment prefiltering. Each fills one row of an octahedral map, which has size + 1 texels as
+// in EnvironmentMap::Level; `row` is in [0, size].
 #pragma once
 
 #include <cstdint>
 
 namespace facet {
 
-// A row from an equirectangular picture of 4-float pixels; 2 x 2 samples a texel. The fourth number of each texel is
-// the solid angle that a cell has there.
+// Resamples an equirectangular image of 4-float pixels, with 2 x 2 samples per texel. The fourth component of each
+// texel becomes the solid angle of a cell at that position.
 struct OctahedronRowTask {
   const float* picture;
   std::int32_t picture_width, picture_height;
@@ -16,17 +16,17 @@ struct OctahedronRowTask {
 };
 void FillOctahedronRow(const OctahedronRowTask& task);
 
-// One direction of a lobe about +Z, and where to read it.
+// One sample direction of a lobe about +Z, and the level of the chain to read it from.
 struct LobeSample {
   float x, y, z;
-  float weight;          // they add up to 1
-  // The square that is read, of cells about as large as the sample's share. Of the chain that environment.cc describes:
-  // size x size texels in the middle of cells, and a border of one texel.
+  float weight;          // the weights of a lobe sum to 1
+  // The level of the chain (see environment.cc) whose texels are about as large as the sample's share of the lobe: size
+  // x size texels at cell centres, with a border of one texel.
   std::int32_t size;
-  std::int32_t origin;  // of its texel (0, 0), in floats
+  std::int32_t origin;  // the offset of its texel (0, 0), in floats
 };
 
-// A row: for each texel's direction the weighted mean of the chain `texels` over the lobe.
+// Computes, for the direction of each texel, the weighted mean of the chain `texels` over the samples of a lobe.
 struct LobeRowTask {
   const float* texels;
   const LobeSample* samples;
@@ -36,9 +36,9 @@ struct LobeRowTask {
 };
 void FilterLobeRow(const LobeRowTask& task);
 
-// A cell of the source of ConvolveRow.
+// A cell of the small map that ConvolveRow() integrates over.
 struct SourceTexel {
-  float x, y, z;                    // unit: where its light comes from, the centroid of what it shines
+  float x, y, z;                    // unit: the direction of its light, the centroid weighted by radiance
   float center_x, center_y, center_z;  // unit: the centroid of its area
   float solid_angle;
   float r, g, b;  // radiance * solid angle
@@ -46,8 +46,8 @@ struct SourceTexel {
 
 constexpr int kConvolvedLobes = 4;
 
-// The same row of five squares at once: means of the source weighted by n_dot_l D(h; alpha[k]), with h between n and l,
-// and, as the last of them, by n_dot_l alone, which is a lobe of alpha 1 as well.
+// Computes the same row of five maps at once. They are means of the source, weighted by n_dot_l D(h; alpha[k]) with h
+// half-way between n and l; the last is weighted by n_dot_l only, which is also the lobe of alpha 1.
 struct ConvolveRowTask {
   const SourceTexel* source;
   std::int32_t source_count;

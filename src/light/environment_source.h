@@ -1,4 +1,4 @@
-// A picture that lights scenes and is decoded when it is needed, with what was prepared from it earlier.
+// An environment image that is decoded when it is needed, with a store of the maps that were prefiltered from it.
 #pragma once
 
 #include <cstdint>
@@ -12,24 +12,25 @@
 
 namespace facet {
 
-// Immutable as its users see it: what Find() gives is, bit for bit, what PrefilterEnvironment() makes of Picture().
+// Behaves as if it were immutable: Find() returns, bit for bit, what PrefilterEnvironment() computes from Picture().
 class EnvironmentSource {
  public:
   virtual ~EnvironmentSource() = default;
 
-  // Decodes. Throws Error, as DecodeImage() does.
+  // Decodes the image. Throws Error, as DecodeImage() does.
   virtual std::shared_ptr<const Image> Picture() const = 0;
 
-  // What was kept for the same options; null: nothing that is whole. `admit` is called with the bytes that it takes
-  // before they are taken, and may throw.
+  // The maps that are stored for these options; null if there are none, or if they are damaged. Calls `admit` with the
+  // number of bytes that they take before allocating them; it may throw.
   virtual std::shared_ptr<const EnvironmentMap> Find(const EnvironmentOptions& options,
                                                      const std::function<void(std::uint64_t)>& admit) const = 0;
 
-  // Keeps what was prepared from Picture(). A failure changes no picture: it is returned as a warning, otherwise empty.
+  // Stores maps that were prefiltered from Picture(). A failure is returned as a warning, since it does not affect the
+  // frame; otherwise the text is empty.
   virtual std::string Keep(const EnvironmentOptions& options, const EnvironmentMap& map) const = 0;
 };
 
-// Of Kind::Image.
+// The environment's image, decoded if need be. For EnvironmentSettings::Kind::Image.
 inline std::shared_ptr<const Image> PictureOf(const EnvironmentSettings& environment) {
   return environment.image != nullptr ? environment.image : environment.source->Picture();
 }

@@ -10,13 +10,13 @@ namespace {
 
 using Basis = std::array<double, 9>;
 
-// The real harmonics of degree 0, 1 and 2 without their constants, which come in with kFactor.
+// The real spherical harmonics of degrees 0, 1 and 2, without their normalisation, which is part of kFactor.
 Basis HarmonicsAt(const glm::dvec3& d) {
   return {1.0, d.x, d.y, d.z, d.x * d.y, d.y * d.z, d.x * d.z, 3.0 * d.z * d.z - 1.0, d.x * d.x - d.y * d.y};
 }
 
-// The square of each harmonic's constant times 4 pi (1; 3; 15; 5/4; 15/4), times what the cosine lobe keeps of its
-// degree (1, 2/3, 1/4).
+// For each harmonic the square of its normalisation constant times 4 pi (1; 3; 15; 5/4; 15/4), times the coefficient of
+// the clamped cosine for its degree (1, 2/3, 1/4).
 constexpr Basis kFactor = {1.0, 2.0, 2.0, 2.0, 15.0 / 4.0, 15.0 / 4.0, 15.0 / 4.0, 5.0 / 16.0, 15.0 / 16.0};
 
 // The direction of a node of the octahedral square.

@@ -1,4 +1,4 @@
-// Irradiance from nine numbers a channel.
+// Irradiance from nine spherical-harmonic coefficients per channel.
 #pragma once
 
 #include <cstdint>
@@ -9,10 +9,9 @@
 namespace facet {
 
 // Fills an octahedral square of (size + 1) x (size + 1) texels of 4 floats (see EnvironmentMap) with the irradiance,
-// divided by pi, of the environment whose texels are `source`, as far as spherical harmonics of degree 2 describe it;
-// what they leave below zero becomes zero.
-// Source: Ramamoorthi and Hanrahan, 2001, An Efficient Representation for Irradiance Environment Maps, equations 2 to
-// 9.
+// divided by pi, of the environment whose texels are `source`, approximated by spherical harmonics up to degree 2 and
+// clamped to 0 from below. Source: Ramamoorthi and Hanrahan, 2001, An Efficient Representation for Irradiance
+// Environment Maps, equations 2 to 9.
 void FillIrradianceFromHarmonics(const std::vector<SourceTexel>& source, std::int32_t size, float* out);
 
 }  // namespace facet

@@ -1,4 +1,4 @@
-// The light of a frame as the material closure reads it. T is Float (lanes), float or double.
+// The light of a frame as material closures use it. T is Float (lanes), float or double.
 
 #if defined(FACET_LIGHT_LIGHTING_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef FACET_LIGHT_LIGHTING_INL_H_
@@ -23,10 +23,11 @@ HWY_INLINE LightSample<T> SamplePunctual(const PunctualLight& light, Vec3<T> pos
   if (light.type == LightType::Directional) return {-shines, radiant};
   const Vec3<T> to_light = Vec3<T>{T(light.position_eye[0]), T(light.position_eye[1]), T(light.position_eye[2])} -
                            position;
-  // Nearer than a millimetre the light would outshine any film: its illuminance stays what it is there.
+  // Distances below a millimetre count as a millimetre, so that the illuminance stays finite.
   const T length2 = Dot(to_light, to_light);
   const T distance2 = Max(length2, T(1e-6f));
-  // Unit in there too, down to 1e-18 m, below which squares vanish; in the light itself there is no direction.
+  // The direction is still normalised there, down to 1e-18 m, where the square underflows. At the light's own position
+  // there is no direction.
   const Vec3<T> direction = to_light * (T(1.0f) / Sqrt(Max(length2, T(1e-36f))));
   const T relative2 = distance2 * T(light.inverse_range2);
   const T window = Clamp(T(1.0f) - relative2 * relative2, T(0.0f), T(1.0f));
@@ -39,7 +40,7 @@ HWY_INLINE LightSample<T> SamplePunctual(const PunctualLight& light, Vec3<T> pos
   return {direction, radiant * attenuation};
 }
 
-// The row of a DfgTable.
+// The rows of a DfgTable to interpolate between.
 template <class T>
 HWY_INLINE TablePosition<T> DfgRow(T perceptual_roughness) {
   const float last = static_cast<float>(DfgTable::kRows - 1);
@@ -66,7 +67,7 @@ HWY_INLINE SpecularAlbedo<T> LookupDfgAverage(const DfgTable& table, T perceptua
   return {Mix(p.x, p.z, row.fraction), Mix(p.y, p.w, row.fraction)};
 }
 
-// The Lighting that material/closure-inl.h asks for. Directions in world axes.
+// Implements the Lighting that material/closure-inl.h expects. Directions are in world axes.
 template <class T>
 class LightingView {
  public:
@@ -87,7 +88,7 @@ class LightingView {
     return PrefilteredRadiance(*data_->environment, ToEnvironment(direction), perceptual_roughness) *
            T(data_->environment_intensity);
   }
-  // The environment itself, sharp where it was prepared with keep_picture.
+  // The environment as a background: from its image if that was kept (keep_picture), else from its sharpest map.
   HWY_INLINE Vec3<T> Background(Vec3<T> direction) const {
     return SharpRadiance(*data_->environment, ToEnvironment(direction)) * T(data_->environment_intensity);
   }

@@ -1,4 +1,4 @@
-// All light of a frame, as it crosses into a kernel.
+// The lights and the environment of a frame, in the form that shading kernels take.
 #pragma once
 
 #include "light/dfg.h"
@@ -7,17 +7,18 @@
 
 namespace facet {
 
-// Refers to what it was made from.
+// Does not own what it points to.
 struct LightingData {
   const PunctualLight* lights = nullptr;
   int light_count = 0;
-  const EnvironmentMap* environment = nullptr;  // may be null: no light from all around
+  const EnvironmentMap* environment = nullptr;  // null: no image-based lighting
   const DfgTable* dfg = nullptr;                // never null
   float environment_from_world[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};  // row by row: d_env[r] = sum over c of m[3 r + c] d[c]
   float environment_intensity = 1.0f;
 };
 
-// `environment` may be null. `rotation`: radians about +Y, counter-clockwise seen from above; `intensity` scales it.
+// `environment` may be null. `rotation`: of the environment, in radians about +Y, counter-clockwise seen from above.
+// `intensity`: a factor for the environment.
 LightingData MakeLightingData(const std::vector<PunctualLight>& lights, const EnvironmentMap* environment,
                               double rotation = 0.0, double intensity = 1.0);
 

@@ -1,4 +1,5 @@
-// Octahedral maps: directions to squares and back, and bilinear reading. See environment.h for the layout.
+// Octahedral maps: the mapping from directions to the unit square and back, and bilinear lookup. environment.h
+// describes the layout.
 
 #if defined(FACET_LIGHT_OCTAHEDRON_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef FACET_LIGHT_OCTAHEDRON_INL_H_
@@ -14,7 +15,7 @@ HWY_BEFORE_NAMESPACE();
 namespace facet {
 namespace HWY_NAMESPACE {
 
-// Any direction but zero, of any length, to [0, 1]^2. Zero goes to the centre.
+// Maps a direction of any length to [0, 1]^2. Zero is mapped to the centre.
 template <class T>
 HWY_INLINE Vec2<T> OctahedronFromDirection(Vec3<T> d) {
   const T norm = Abs(d.x) + Abs(d.y) + Abs(d.z);
@@ -27,7 +28,7 @@ HWY_INLINE Vec2<T> OctahedronFromDirection(Vec3<T> d) {
   return {Select(below, folded_x, x) * T(0.5f) + T(0.5f), Select(below, folded_z, z) * T(0.5f) + T(0.5f)};
 }
 
-// The inverse: unit.
+// The inverse mapping; returns a unit vector.
 template <class T>
 HWY_INLINE Vec3<T> DirectionFromOctahedron(Vec2<T> uv) {
   const T x = uv.x * T(2.0f) - T(1.0f);
@@ -39,9 +40,9 @@ HWY_INLINE Vec3<T> DirectionFromOctahedron(Vec2<T> uv) {
   return d * (T(1.0f) / Sqrt(Dot(d, d)));
 }
 
-// Bilinear between the four texels around column x and row y, both in [0, last + 1]. Texels are four floats; `row` is
-// the distance of rows and `offset` the place of the first texel, in floats; `last`, `row` and `offset` may differ
-// between lanes.
+// Interpolates between the four texels around column x and row y, both in [0, last + 1]. A texel has four floats; `row`
+// is the distance between rows and `offset` the index of the first texel, both in floats. `last`, `row` and `offset`
+// may differ between lanes.
 template <class T>
 HWY_INLINE Vec3<T> SampleTexels(const float* texels, T x, T y, T last, IntOf<T> row, IntOf<T> offset) {
   const T x0 = Min(Floor(x), last);
@@ -55,7 +56,7 @@ HWY_INLINE Vec3<T> SampleTexels(const float* texels, T x, T y, T last, IntOf<T> 
   return WeighFour<T>(texels, {i00, i00 + four, i01, i01 + four}, {left * top, fx * top, left * fy, fx * fy});
 }
 
-// A square of `size` x `size` cells with texels at its nodes, at uv in [0, 1]^2.
+// Looks up a map of `size` x `size` cells with texels at the nodes, at uv in [0, 1]^2.
 template <class T>
 HWY_INLINE Vec3<T> SampleOctahedron(const float* texels, T size, IntOf<T> row, IntOf<T> offset, Vec2<T> uv) {
   return SampleTexels<T>(texels, Clamp(uv.x * size, T(0.0f), size), Clamp(uv.y * size, T(0.0f), size),

@@ -28,7 +28,7 @@ std::vector<PunctualLight> MakePunctualLights(const std::vector<PosedLight>& lig
     PunctualLight p;
     p.type = light.type;
     Copy(posed.position_world - eye_world, p.position_eye);
-    // From so far away that no float says how far, nothing arrives.
+    // A distance that overflows a float is so large that no light arrives.
     if (light.type != LightType::Directional && !IsFinite(p.position_eye)) continue;
     Copy(posed.direction_world, p.direction);
     Copy(radiant, p.radiant);

@@ -22,7 +22,8 @@ double SmoothStep(double low, double high, double x) {
 // A rectangular diffuser that faces the centre of the room from `towards`, one unit away.
 class SoftBox {
  public:
-  // Half sizes are tangents of half the angles that it subtends; `softness`, the half width of its edge, likewise.
+  // Half sizes are tangents of half the angles that it subtends; `softness` is the half width of its edge in the same
+  // unit.
   SoftBox(glm::dvec3 towards, double half_width, double half_height, double softness, double radiance)
       : axis_(glm::normalize(towards)),
         half_width_(half_width),
@@ -34,7 +35,7 @@ class SoftBox {
     up_ = glm::cross(axis_, right_);
   }
 
-  // What it adds in a direction. Its fabric is brightest in front of the lamp.
+  // The radiance that it adds in a direction. The diffuser is brightest in front of its lamp.
   double Radiance(glm::dvec3 direction) const {
     const double depth = glm::dot(axis_, direction);
     if (depth <= 0.0) return 0.0;
@@ -52,10 +53,10 @@ class SoftBox {
   double half_width_, half_height_, softness_, radiance_;
 };
 
-// White that faces the lamps comes out just below white at exposure 0.
+// A scale with which a white surface that faces the lamps is just below white at exposure 0.
 constexpr double kMeanRadiance = 0.65;
 
-// The room before it is scaled. Cameras stand at +Z by default: the key light is behind their left shoulder.
+// The room, not scaled yet. The default camera stands at +Z, with the key light behind its left shoulder.
 class Room {
  public:
   double Radiance(glm::dvec3 d) const {

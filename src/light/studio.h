@@ -1,4 +1,4 @@
-// The studio that lights a scene when no environment is given.
+// The studio: the environment that lights a scene when no other is given.
 #pragma once
 
 #include <memory>
@@ -14,13 +14,14 @@ namespace facet {
 // twice `height`.
 Image StudioPicture(int width, int height);
 
-// The size of the picture that lights scenes: nothing in the room is sharper than its pixels.
+// The size of the image that lights scenes. Nothing in the studio is sharper than one of its pixels.
 inline constexpr int kStudioWidth = 512, kStudioHeight = 256;
 
-// The sharpest level that it is prepared with: finer ones change no picture by what one could see (docs/accuracy.md).
+// The size of its sharpest prefiltered level: finer ones make no visible difference (docs/accuracy.md).
 inline constexpr int kStudioMaxSize = 128;
 
-// The same, prepared: for the default options by the build, else once per process and value of `options`. Thread-safe.
+// The prefiltered studio. The build prefilters it for the default options; for others it is done once per process and
+// value of `options`. Thread-safe.
 std::shared_ptr<const EnvironmentMap> StudioEnvironment(EnvironmentOptions options = {});
 
 }  // namespace facet

@@ -1,5 +1,5 @@
-// The prepared studio. With the default settings it is read from a table that the build makes (write_studio_table.cc):
-// preparing it takes longer than all else that a small picture needs.
+// The prefiltered studio. For the default settings it is read from a table that the build makes
+// (write_studio_table.cc), because prefiltering takes longer than everything else that a small image needs.
 #include <algorithm>
 #include <bit>
 #include <map>
@@ -33,8 +33,8 @@ std::shared_ptr<const EnvironmentMap> StudioEnvironment(EnvironmentOptions optio
     const std::lock_guard<std::mutex> lock(mutex);
     if (const auto known = prepared.find(options); known != prepared.end()) return known->second;
   }
-  // Outside of the lock, which must not be held while this thread helps with other tasks; whoever is second throws its
-  // own away.
+  // Prefiltered outside of the lock, which must not be held while this thread takes part in other parallel tasks. If
+  // two threads do it at once, the second result is discarded.
   auto map = options == kStudioOptions ? FromTable()
                                        : PrefilterEnvironment(StudioPicture(kStudioWidth, kStudioHeight), options);
   const std::lock_guard<std::mutex> lock(mutex);

@@ -4,10 +4,10 @@
 // (lobes/diffuse-inl.h). Both are reciprocal. A white base colour reflects all light at every roughness, metalness
 // (mixtures too: each part reflects all) and angle.
 //
-// A lobe that the material does not have is skipped by a branch that all lanes take alike.
+// A lobe that the material does not have is skipped by a uniform branch (all lanes take the same side).
 //
-// Occlusion multiplies all that comes from the environment, the specular part too: a cavity sees less of its
-// surroundings in every direction. It never touches punctual lights or emission (glTF 2.0, section 3.9.2).
+// Occlusion multiplies all light from the environment, including specular reflection, because a cavity sees less of its
+// surroundings in every direction. It does not affect punctual lights or emission (glTF 2.0, section 3.9.2).
 
 #if defined(FACET_MATERIAL_CLOSURE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef FACET_MATERIAL_CLOSURE_INL_H_
@@ -24,21 +24,21 @@ HWY_BEFORE_NAMESPACE();
 namespace facet {
 namespace HWY_NAMESPACE {
 
-// What the model means at one point of a surface. Linear Rec. 709; world axes. Make one with `MaterialInputs<T> in{};`:
-// without the braces GCC calls a constructor that it generated for no instruction set in particular.
+// The inputs of the model at one point of a surface. Linear Rec. 709; world axes. Define one as `MaterialInputs<T>
+// in{};`: without the braces GCC calls a constructor that it generates for the baseline instruction set.
 template <class T>
 struct MaterialInputs {
-  Vec3<T> base_color;      // values above 1 count as 1
+  Vec3<T> base_color;      // clamped to 1
   T alpha_coverage{};      // not read here
   T metallic{};            // [0, 1]
   T perceptual_roughness{};  // [0, 1]
   Vec3<T> normal;          // unit, shading, on the viewer's side
   T occlusion{};           // 1 + strength * (texel - 1); 1 where there is none
   Vec3<T> emissive;        // radiance
-  MaterialFeatures lobes = kLobes;  // that the material has, beside the specular one
+  MaterialFeatures lobes = kLobes;  // those that the material has besides the specular lobe
 };
 
-// The material seen from one direction. What a Lighting provides to it and to the functions below:
+// The material seen from one direction. A Lighting provides, to this and to the functions below:
 //   int LightCount() const;
 //   LightSample<T> Sample(int light, Vec3<T> position) const;         // position relative to the eye
 //   bool HasEnvironment() const;
@@ -73,7 +73,7 @@ HWY_INLINE Closure<T> MakeClosure(const MaterialInputs<T>& in, Vec3<T> view, con
   return Closure<T>(at, in, base, Clamp(in.metallic, zero, one), lighting);
 }
 
-// The BRDF times n_dot_l, in 1/steradian, for light from `direction` (unit); zero from below the horizon.
+// The BRDF times n_dot_l, in 1/steradian, for light from `direction` (unit); zero below the horizon.
 template <class T, class Lighting>
 HWY_INLINE Vec3<T> EvaluateClosure(const Closure<T>& c, Vec3<T> direction, const Lighting& lighting) {
   const T n_dot_l_signed = Dot(c.at.normal, direction);
@@ -89,7 +89,7 @@ HWY_INLINE Vec3<T> EvaluateClosure(const Closure<T>& c, Vec3<T> direction, const
   return Select<T>(lit, brdf * from.n_dot_l, Vec3<T>{});
 }
 
-// What the surface reflects of the environment, unoccluded. `perceptual_roughness` is the material's, unclamped.
+// The reflected radiance of the environment, without occlusion. `perceptual_roughness`: the material's, not clamped.
 template <class T, class Lighting>
 HWY_INLINE Vec3<T> EvaluateEnvironment(const Closure<T>& c, T perceptual_roughness, const Lighting& lighting) {
   EnvironmentTerms<T> sum = c.specular.Environment(c.at, perceptual_roughness, lighting);

@@ -1,4 +1,4 @@
-// What of its model a given material uses: the rest costs nothing.
+// The features of its shading model that a material uses. Others are disabled and cost nothing.
 #pragma once
 
 #include <cstdint>
@@ -7,23 +7,23 @@
 
 namespace facet {
 
-// Bits of a mask. A bit that is clear means that leaving the feature out gives the same picture, bit for bit. The low
-// bits belong to the texture slots (BitOf() in material/slots.h).
+// Bits of a mask. A clear bit means that the image without the feature is the same, bit for bit. The low bits belong to
+// the texture slots (BitOf() in material/slots.h).
 enum MaterialFeature : std::uint64_t {
   kFirstFeature = std::uint64_t{1} << 40,
   kEmission = kFirstFeature << 0,  // emissive factor and strength are not both zero
-  kLit = kFirstFeature << 1,  // the model reads light, and there is a surface: not points and lines without normals
+  kLit = kFirstFeature << 1,  // the model reads light; never for points and lines without normals
   kAlphaTest = kFirstFeature << 2,   // MASK
   kAlphaBlend = kFirstFeature << 3,  // BLEND
   kDoubleSided = kFirstFeature << 4,
-  kDiffuseLobe = kFirstFeature << 5,  // not all of it is metal
-  kLobes = kDiffuseLobe,              // all of a closure's that a material may lack
+  kDiffuseLobe = kFirstFeature << 5,  // it is not purely metallic
+  kLobes = kDiffuseLobe,              // all optional lobes of the closure
 };
 using MaterialFeatures = std::uint64_t;
 
-// Textures whose factor makes them invisible (an emissive texture with factor 0, occlusion of strength 0) are not
-// counted, nor those that an unlit material ignores. A normal texture counts whatever its scale.
-// `on_surface`: false for points and lines without normals, which show base colour and emission (glTF 2.0
+// The features of a material. Textures whose factor makes them invisible (an emissive texture with factor 0, occlusion
+// of strength 0) are not included, nor those that an unlit material ignores. A normal texture is included for any
+// scale. `on_surface`: false for points and lines without normals, which show only base colour and emission (glTF 2.0
 // specification, 3.9.6).
 MaterialFeatures FeaturesOf(const Material& material, bool on_surface = true);
 

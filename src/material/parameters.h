@@ -1,5 +1,5 @@
-// The table of material parameters: what a glTF file may state of a material besides its name, where it stands there,
-// and which values are allowed. The loader, validation and the hash of a scene loop over it.
+// The table of material parameters: each parameter of a material, its place in a glTF file, and its allowed values. The
+// loader, validation and the hash of a scene loop over it.
 #pragma once
 
 #include <limits>
@@ -10,7 +10,7 @@
 
 namespace facet {
 
-// Inclusive; an infinite end stands for every finite number.
+// An inclusive range; with an infinite end it has all finite numbers on that side.
 struct ParameterRange {
   float low = 0.0f, high = 1.0f;
 };
@@ -18,16 +18,16 @@ struct ParameterRange {
 template <class Value>
 struct Parameter {
   const char* name;        // in messages
-  const char* gltf_group;  // the object within a glTF material that has it, or the extension; null: the material itself
+  const char* gltf_group;  // object in the glTF material that has it, or extension; null: the material
   const char* gltf_name;
   Value Material::*member;
   ParameterRange range = {};  // of numbers
 };
 
-// Whether a parameter's group is an extension: of glTF's names theirs alone have an underscore.
+// Whether a parameter's group is an extension. Only extensions have an underscore in their names.
 constexpr bool IsExtension(std::string_view group) { return group.find('_') != group.npos; }
 
-// Calls visit(Parameter<Value>) for each, in the order in which the hash of a scene reads them.
+// Calls visit(Parameter<Value>) for each parameter, in the order in which they enter the hash of a scene.
 template <class Visit>
 constexpr void ForEachParameter(const Visit& visit) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -46,7 +46,7 @@ constexpr void ForEachParameter(const Visit& visit) {
   visit(Parameter<float>{"normal scale", "normalTexture", "scale", &Material::normal_scale, kAny});
   texture(Slot::Occlusion);
   visit(Parameter<float>{"occlusion strength", "occlusionTexture", "strength", &Material::occlusion_strength, kShare});
-  // Above 1 the core specification forbids, but exporters older than KHR_materials_emissive_strength wrote it.
+  // The core specification forbids values above 1, but exporters older than KHR_materials_emissive_strength write them.
   visit(Parameter<glm::vec3>{"emissive factor", nullptr, "emissiveFactor", &Material::emissive_factor, kPositive});
   texture(Slot::Emissive);
   visit(Parameter<float>{"emissive strength", "KHR_materials_emissive_strength", "emissiveStrength",
@@ -57,7 +57,7 @@ constexpr void ForEachParameter(const Visit& visit) {
   visit(Parameter<ShadingModel>{"shading model", nullptr, nullptr, &Material::model});
 }
 
-// The parameters as the shading stage reads them.
+// The parameters in the form that the shading stage reads.
 struct MaterialFactors {
   float base_color[4] = {1, 1, 1, 1};
   float metallic = 1.0f;

@@ -1,6 +1,6 @@
-// The table of texture slots: all that differs from one texture of a material to the next. Whatever does something with
-// every texture (the loader, validation, the plan, decoding, the shaders, the reference, `explain` and `info`) loops
-// over it, so that a new texture is a new row, the parameter that it scales, and the line of the model that reads it.
+// The table of texture slots: everything in which the textures of a material differ. All code that handles every
+// texture (the loader, validation, the plan, decoding, the shaders, the reference, `explain` and `info`) loops over it.
+// A new texture is therefore a new row, the parameter that it scales, and the line of the shading model that reads it.
 #pragma once
 
 #include <array>
@@ -26,15 +26,15 @@ struct SlotInfo {
   const char* gltf_name;
   TextureRef Material::*ref;
   TextureRole role;
-  int channels;            // that are read: ChannelMask
-  bool alpha_is_coverage;  // opaque materials do not read alpha
-  bool needs_light;        // only what is lit reads it
+  int channels;            // those that are read: bits of ChannelMask
+  bool alpha_is_coverage;  // alpha is not read for opaque materials
+  bool needs_light;        // read for lit materials only
   bool tangent_space;
-  // A white texture changes nothing: factors are multiplied by it. (No texel of 8 or 16 bits is exactly the normal that
-  // changes nothing.)
+  // Whether a white texture has no effect because it is a factor. (For normal textures there is no such texel: none of
+  // 8 or 16 bits is exactly the unperturbed normal.)
   bool white_is_neutral;
-  Feature feature;  // what switches it off
-  // Whether the parameters that the texture scales let it be seen.
+  Feature feature;  // the feature that disables it
+  // Whether the parameters that the texture scales make it visible.
   bool (*is_visible)(const Material&);
 };
 
@@ -66,11 +66,11 @@ inline constexpr std::size_t kSlotCount = kSlots.size();
 constexpr std::size_t IndexOf(Slot slot) { return static_cast<std::size_t>(slot); }
 constexpr const SlotInfo& InfoOf(Slot slot) { return kSlots[IndexOf(slot)]; }
 
-// Of MaterialFeatures: the texture is read.
+// The bit of MaterialFeatures that says that the texture is read.
 constexpr MaterialFeatures BitOf(Slot slot) { return MaterialFeatures{1} << IndexOf(slot); }
 inline constexpr MaterialFeatures kTextureBits = (MaterialFeatures{1} << kSlotCount) - 1;
 static_assert(kTextureBits < kFirstFeature);
-// Of those textures that are read in tangent space, for which surfaces need tangents.
+// The bits of the textures that are in tangent space, so that surfaces need tangents.
 inline constexpr MaterialFeatures kTangentSpaceBits = [] {
   MaterialFeatures bits = 0;
   for (const SlotInfo& slot : kSlots) bits |= slot.tangent_space ? BitOf(slot.slot) : 0;

@@ -1,4 +1,4 @@
-// The approximations that a report turns, and what they can be turned to.
+// The approximations that a report varies, and their values.
 #pragma once
 
 #include <cstddef>
@@ -12,16 +12,16 @@ namespace facet {
 struct Knob {
   std::string option;
   std::vector<std::string> values;  // from cheap to exact
-  std::size_t used = 0;             // index of the value that was asked for
+  std::size_t used = 0;             // index of the requested value
 
   std::size_t Last() const { return values.size() - 1; }
 };
 
-// Every approximation, with the value in use put among those that are tried. `settings`: every option spelled out.
-// `largest_environment`: texels of the environment beyond which there is no more.
+// All approximations, with the value in use among those to try. `settings`: every option spelled out.
+// `largest_environment`: the size of the environment's map, in texels, beyond which it does not become sharper.
 std::vector<Knob> AllKnobs(SettingsText settings, int largest_environment);
 
-// What differs from the settings asked for where each of `knobs` has the value that `choose` gives the index of.
+// The differences from the requested settings if each of `knobs` has the value whose index `choose` returns.
 template <class Choose>
 SettingsText Turned(const std::vector<Knob>& knobs, const Choose& choose) {
   SettingsText changed;
@@ -32,7 +32,7 @@ SettingsText Turned(const std::vector<Knob>& knobs, const Choose& choose) {
   return changed;
 }
 
-// One step from `changed`, in each of `knobs` and direction.
+// The settings one step away from `changed`, for each of `knobs` in both directions.
 std::vector<SettingsText> NeighboursOf(const SettingsText& changed, const std::vector<Knob>& knobs);
 
 // "max-anisotropy=1 samples=2"; "the settings asked for" where nothing is changed.

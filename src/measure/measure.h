@@ -1,4 +1,4 @@
-// What a rendering takes, and how far it is from another: the measurements behind a report.
+// The measurements of a report: time, memory and error of a rendering.
 #pragma once
 
 #include <cstddef>
@@ -12,44 +12,43 @@
 
 namespace facet {
 
-// The largest number of bytes by which the process grows while `body` runs, as the kernel counts resident memory; 0
-// where it does not say.
+// The peak growth of the process's resident memory while `body` runs, in bytes; 0 if the kernel does not report it.
 std::size_t PeakBytes(const std::function<void()>& body);
 
-// What one point's runs say.
+// The times of one point's runs.
 struct PointTime {
   double median = 0.0, low = 0.0, high = 0.0;  // seconds; the fastest and the slowest run
 };
 
-// `rounds`: of each round the seconds of every point, one run each. A machine that is slow for a while is so in whole
-// rounds, so the median is that of a point's shares of its rounds, times the median round: what slows some rounds slows
-// all points alike, whichever of them it caught.
+// `rounds`: for each round the seconds of all points, with one run each. If the machine becomes slow for a while, it
+// affects whole rounds. The result is therefore the median of a point's share of each round, times the median round,
+// which treats all points alike.
 std::vector<PointTime> TimesOf(const std::vector<std::vector<double>>& rounds);
 
-// The error of `film` against what `reference` knows of a picture of the same size, less FLIP.
+// The error of `film` against the known pixels of `reference`, which has the same size. Without FLIP.
 FilmError ErrorOf(const Film& film, const ReferenceFilm& reference);
 
 // The same against another film.
 FilmError ErrorOf(const Film& film, const Film& reference);
 
-// The film at 1 / n of its size, each pixel the mean of n x n, with the smallest n for which no side is longer than
-// `longest` pixels; rows and columns that do not fill a pixel are left out.
+// The film at 1 / n of its size, with pixels that are means of n x n pixels, for the smallest n for which no side is
+// longer than `longest` pixels. Rows and columns that do not fill a pixel are dropped.
 Film Reduced(const Film& film, int longest);
 
-// FLIP of developed pictures against a reference's. Where that knows blocks of the picture only, each is a picture by
-// itself, whose borders FLIP continues outwards: that makes the mean about 3 % larger.
+// FLIP of encoded images against a reference. If the reference has only some blocks of the image, each block is
+// compared as an image of its own, whose borders FLIP extends outwards; this makes the mean about 3 % larger.
 class FlipJudge {
  public:
-  // `developed`: of the reference, integers.
+  // `developed`: the encoded reference, with integer components.
   FlipJudge(const ReferenceFilm& reference, const Image& developed);
 
   struct Verdict {
     double mean = 0.0;
-    std::vector<float> errors;  // of each pixel, 0 to 1; 0 where the reference is not known
+    std::vector<float> errors;  // of each pixel, 0 to 1; 0 where the reference is unknown
   };
   Verdict Judge(const Image& developed) const;
 
-  // The errors as HeatMap() shows them, reduced as a film is; transparent where nothing is known.
+  // The errors in the colours of HeatMap(), reduced like a film; transparent where the reference is unknown.
   Image Map(const Verdict& verdict, int longest) const;
 
  private:

@@ -1,4 +1,5 @@
-// MeasureErrors of facet/report.h: the reference, then one point after the other, then the times of all in turn.
+// MeasureErrors() of facet/report.h: first the reference, then each point once, then rounds over all points to measure
+// times.
 #include "measure/measure_errors.h"
 
 #include <algorithm>
@@ -33,15 +34,15 @@ constexpr double kReferenceShare = 0.5;        // of the budget
 constexpr double kFirstLookShare = 0.05;       // of the budget, for a reference that only tells whether a bound is far
 constexpr double kMostBudget = 86400.0;        // seconds
 constexpr int kFewestRuns = 3, kMostRuns = 7;  // of a point: about a second of them, if there is time
-constexpr double kSparedRuns = 2.5;            // for which time is left when points are added: two, and what they may
-                                               // take longer than expected
+constexpr double kSparedRuns = 2.5;            // time reserved when points are added: for two runs, and for their
+                                               // being slower than expected
 // Rendering in double takes 1 to 4 times as long as on lanes (the bundled scenes and DamagedHelmet).
 constexpr double kDoubleToLanes = 5.0;
-// By what factor the ends of all approximations together must miss a bound for it to be out of reach. Their errors are
-// not quite the least there are: CesiumMan's picture has two thirds of it without mip levels. And times vary.
+// A bound is out of reach if both ends of all approximations together miss it by this factor. The most exact settings
+// do not always have the least error (CesiumMan has two thirds of it without mip levels), and times vary.
 constexpr double kFar = 1.6;
 
-// Of a pixel at most: three films, one of them developed and its light, the reference's light, FLIP's errors.
+// Memory per pixel at most: three films, one encoded image and its linear light, the reference's light, FLIP's errors.
 constexpr std::size_t kComparedBytes = 6 * sizeof(glm::vec4) + 2 * sizeof(float);
 
 class Sweep {
@@ -69,7 +70,7 @@ class Sweep {
 
   ErrorReport Run() {
     BeginReference();
-    Render(scene_, SettingsOf({}));  // warms caches that all points share
+    Render(scene_, SettingsOf({}));  // fills caches that all points share
     std::vector<Drawn> ends;
     if (report_.bound.max_seconds || report_.bound.max_relative_rmse) ends = DrawEnds();
     if (out_.out_of_reach.empty()) ContinueReference(kReferenceShare);
@@ -94,13 +95,13 @@ class Sweep {
   }
 
  private:
-  // A rendering, not yet a point.
+  // A rendering that is not a point of the report yet.
   struct Drawn {
     SettingsText changed;
     Film film;
     double seconds = 0.0;
     std::size_t peak_bytes = 0;
-    double spent = 0.0;  // seconds, with what is around the rendering
+    double spent = 0.0;  // seconds, including the work around the rendering
   };
 
   double Elapsed() const { return clock_() - start_; }
@@ -109,7 +110,7 @@ class Sweep {
     if (report_.progress) report_.progress(std::min(Elapsed() / report_.budget_seconds, 1.0), what);
   }
 
-  // Whether there is time for so many more points, and then for timing all of them.
+  // Whether there is time for this many more points, and for timing all points afterwards.
   bool Affords(std::size_t more) {
     if (late_) return false;
     const double count = double(out_.points.size()), grown = (count + double(more)) / count;
@@ -131,7 +132,7 @@ class Sweep {
     reference_ = std::make_unique<ReferenceRun>(scene_, settings, reference);
   }
 
-  // Until that share of the budget is used.
+  // Seconds until that share of the budget is used.
   void ContinueReference(double share) {
     reference_film_ = &reference_->Continue(share * report_.budget_seconds - reference_began_);
   }
@@ -143,8 +144,8 @@ class Sweep {
     out = {out.samples, film.batches, film.known_pixels, film.seconds, film.rms_error, film.relative_error, film.notes};
   }
 
-  // All approximations at their cheapest, and at their most exact: what is most likely to keep a bound. Says in
-  // `out_of_reach` where it is far beyond them.
+  // Renders with the cheapest and with the most exact values of all approximations, which are most likely to keep a
+  // bound. Sets `out_of_reach` if even these are far from it.
   std::vector<Drawn> DrawEnds() {
     Say("whether the bound is in reach");
     ContinueReference(kFirstLookShare);
@@ -167,7 +168,7 @@ class Sweep {
     const FilmError error = ErrorOf(most_exact, *reference_film_);
     const double least = std::max(error.relative_rmse - 2.0 * error.standard_error, 0.0);
     const double noise = reference_film_->relative_error, far = kFar * bound;
-    // Most of the error must be that of the settings: how much the noise adds is not known well.
+    // Most of the error must come from the settings, since the contribution of the reference's noise is not well known.
     if (least * least - 2.0 * noise * noise > far * far) {
       out_.out_of_reach = "not even the most exact settings come near it";
     } else if (reference_began_ + reference_->SecondsFor(far) > kReferenceShare * report_.budget_seconds) {
@@ -188,7 +189,7 @@ class Sweep {
     return request.settings;
   }
 
-  // The studio is prepared once a process, or already by the build; a report wants to see what it costs, where it does.
+  // The studio is prefiltered once per process, or by the build; a report must include that cost where there is one.
   void PrepareStudioAnew(RenderSettings& settings) const {
     const EnvironmentOptions options{settings.background == Background::Environment, settings.environment_size,
                                      settings.environment_samples, settings.irradiance};
@@ -219,7 +220,7 @@ class Sweep {
     return drawn;
   }
 
-  // Its time is that of one run, for the time being.
+  // Its time is preliminary: that of one run.
   void AddPoint(const Drawn& drawn) {
     const double before = Elapsed();
     ReportPoint point;
@@ -246,7 +247,8 @@ class Sweep {
     out_.rounding = error;
   }
 
-  // Each approximation by itself. One whose cheapest and most exact values change nothing is not for this scene.
+  // Varies each approximation by itself. One whose cheapest and most exact values make no difference does not apply to
+  // this scene.
   void MeasureOneByOne(const Drawn& used) {
     for (Knob& knob : AllKnobs(out_.settings, largest_environment_)) {
       std::vector<std::size_t> ends;
@@ -279,7 +281,7 @@ class Sweep {
     }
   }
 
-  // False: there was no time left.
+  // False: time was up.
   bool MeasurePoint(const SettingsText& changed) {
     if (!Affords(1)) {
       ++unmeasured_;
@@ -290,7 +292,8 @@ class Sweep {
     return true;
   }
 
-  // From the points on the front one step further, in every approximation and direction, until there is no new point.
+  // Extends the Pareto front: from its points one step in every approximation and direction, until there is no new
+  // point.
   void MeasureCombinations() {
     for (bool grew = true; grew;) {
       grew = false;
@@ -341,7 +344,7 @@ class Sweep {
     }
   }
 
-  // What the points say of each approximation's three values.
+  // Computes from the points the costs of each approximation's three values.
   void CompleteCosts() {
     for (ApproximationCost& cost : out_.costs) {
       const auto read = [&](const std::string& value, double& error, double& seconds) {
@@ -384,8 +387,8 @@ class Sweep {
   std::unique_ptr<FlipJudge> flip_;
   std::vector<Knob> knobs_;  // that make a difference
   std::set<SettingsText> measured_;
-  double visits_seconds_ = 0.0;  // of the points so far, with all that is made of them
-  double round_seconds_ = 0.0;   // of a run of each point
+  double visits_seconds_ = 0.0;  // of all points so far, including their images
+  double round_seconds_ = 0.0;   // of one run of every point
   bool late_ = false;            // there is no time for another point
   std::size_t unmeasured_ = 0;   // points that were planned when the budget ended
   ErrorReport out_;

@@ -1,4 +1,4 @@
-// Light from all around as the file's picture says: read in double, and sampled where it is bright.
+// The environment for the reference: its image in double, with importance sampling of bright parts.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -9,23 +9,23 @@
 
 namespace facet {
 
-// The equirectangular picture, bilinear between the centres of its pixels: what the rasterizer prefilters, and shows as
-// a background. Directions are unit, world axes. Immutable.
+// The equirectangular image with bilinear interpolation between pixel centres, which the rasterizer prefilters and
+// shows as a background. Directions are unit, in world axes. Immutable.
 class ExactEnvironment {
  public:
-  // Of Kind::Studio or Kind::Image. Throws Error(InvalidUsage) for an image that breaks its own rules.
+  // For Kind::Studio or Kind::Image. Throws Error(InvalidUsage) for a broken image.
   explicit ExactEnvironment(const EnvironmentSettings& settings);
 
   struct Light {
     glm::dvec3 direction{0.0};
     glm::dvec3 radiance{0.0};
-    double density = 0.0;  // of Sample() choosing this direction, in 1/steradian
+    double density = 0.0;  // probability density of the direction, in 1/steradian
   };
   Light Toward(const glm::dvec3& direction) const;
 
-  // A direction, distributed as the picture's luminance (mean of R, G, B) but for the change of a row's solid angle
-  // from its top to its bottom. `random`: uniform in (0, 1)^2; neighbouring points give neighbouring directions. Not
-  // for a black picture.
+  // Samples a direction with a density proportional to the image's luminance (mean of R, G, B), except that the solid
+  // angle is constant within a row. `random`: uniform in (0, 1)^2; neighbouring points give neighbouring directions.
+  // Not for a black image.
   Light Sample(const glm::dvec2& random) const;
   bool IsBlack() const { return !(total_ > 0.0); }
 

@@ -1,4 +1,4 @@
-// Who is seen at a point of the picture: by trying, in double and without snapping.
+// Visibility for the reference: tests all primitives at a point of the image, in double and without snapping.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace facet {
 
-// All triangles, lines and points of a posed scene in front of a camera, back faces left out. Refers to the posed
+// All triangles, lines and points of a posed scene in front of a camera, without culled back faces. Refers to the posed
 // scene.
 class ExactGeometry {
  public:
@@ -24,11 +24,12 @@ class ExactGeometry {
     float depth = 0.0f;           // see ExactView::DepthAt
     glm::dvec3 weight{0.0};       // barycentric
   };
-  // Everything at a place of the picture (pixels), in the order of the scene, of those primitives that `candidates`
-  // lists. A place on an edge that two triangles share belongs to one of them.
+  // All hits at a position in the image (pixels), in the order of the scene, among the primitives in `candidates`. A
+  // position on an edge that two triangles share belongs to one of them.
   void HitsAt(const glm::dvec2& place, const std::vector<std::uint32_t>& candidates, std::vector<Hit>& hits) const;
 
-  // The primitives whose bounds touch pixel (x, y), in order. A mere saving: HitsAt() of all gives the same.
+  // The primitives whose bounds touch pixel (x, y), in order. Only an optimisation: HitsAt() of all primitives returns
+  // the same.
   void CandidatesOf(int x, int y, std::vector<std::uint32_t>& candidates) const;
   std::size_t PrimitiveCount() const { return primitives_.size(); }
 

@@ -13,11 +13,11 @@
 
 namespace facet {
 
-// What the metallic-roughness model reads at a point: MaterialInputs<double>, outside of lane code.
+// The inputs of the metallic-roughness model at a point: like MaterialInputs<double>, but outside of lane code.
 struct ShadingInputs {
   glm::dvec3 base_color{1.0};
   double metallic = 1.0, perceptual_roughness = 1.0;
-  glm::dvec3 normal{0.0, 0.0, 1.0};  // unit, bent by the normal texture
+  glm::dvec3 normal{0.0, 0.0, 1.0};  // unit, perturbed by the normal texture
   double occlusion = 1.0;
   glm::dvec3 emissive{0.0};
 };
@@ -54,8 +54,8 @@ class ExactMaterial {
   Use uses_[kSlotCount];  // by Slot
 };
 
-// One for each of the plan's materials. An image that cannot be decoded is done without, and `notes` says so, as in the
-// rasterizer. Throws Error(MissingModule) where an image needs a module that is not installed.
+// Makes one for each of the plan's materials. An image that cannot be decoded is ignored with a note in `notes`, as in
+// the rasterizer. Throws Error(MissingModule) where an image needs a module that is not installed.
 std::vector<ExactMaterial> MakeExactMaterials(const Scene& scene, const FramePlan& plan,
                                               std::vector<std::string>& notes);
 

@@ -7,7 +7,8 @@
 #include "material/closure-inl.h"
 #include "math/elementary.h"
 
-// Compiled for the baseline, as the functions that it calls are: on Arm they have attributes that must agree.
+// Compiled for the baseline instruction set, like the functions that it calls: on Arm their target attributes must
+// agree.
 HWY_BEFORE_NAMESPACE();
 namespace facet {
 namespace {
@@ -20,7 +21,7 @@ constexpr double kPiDouble = 3.14159265358979324;
 Vec3<double> ToLanes(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 glm::dvec3 FromLanes(const Vec3<double>& v) { return {v.x, v.y, v.z}; }
 
-// The Lighting of MakeClosure and EvaluateClosure: albedos without a table, at the roughness that the closure has.
+// The Lighting for MakeClosure() and EvaluateClosure(), with exact albedos at the closure's roughness.
 class ExactLighting {
  public:
   explicit ExactLighting(const AlbedoRow& row) : row_(row) {}
@@ -32,7 +33,7 @@ class ExactLighting {
   const AlbedoRow& row_;
 };
 
-// Directions about a shading normal: Duff et al., 2017, Building an Orthonormal Basis, Revisited.
+// Tangent frame of a shading normal: Duff et al., 2017, Building an Orthonormal Basis, Revisited.
 class Frame {
  public:
   explicit Frame(const glm::dvec3& normal) : z_(normal) {
@@ -47,15 +48,15 @@ class Frame {
   glm::dvec3 x_, y_, z_;
 };
 
-// The point at a share of the unit circle's circumference.
+// The point at a fraction of the unit circle's circumference.
 glm::dvec2 OnCircle(double share) {
   const double cosine = Cos(2.0 * kPiDouble * share);
   return {cosine, std::copysign(std::sqrt(std::max(1.0 - cosine * cosine, 0.0)), 0.5 - share)};
 }
 
-// The specular lobe as a distribution of directions, in the frame of the normal: reflections about the visible normals.
-// A view from below the horizon, which interpolated and mapped normals bring about, sees those normals that are tilted
-// towards it; the lobe that the closure evaluates is as narrow there, so other densities would miss it.
+// Sampling of the specular lobe by reflection about visible normals, in the frame of the normal. With interpolated and
+// mapped normals, the view may be below the horizon; it then sees the normals that are tilted towards it. The lobe that
+// the closure evaluates is as narrow there, so that other densities would miss it.
 class SpecularLobe {
  public:
   SpecularLobe(const glm::dvec3& view_local, double alpha)

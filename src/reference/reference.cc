@@ -61,7 +61,7 @@ PoseSettings PoseForReference(const RenderSettings& settings) {
   return pose;
 }
 
-// A scene made ready, and the picture of one pixel in one batch.
+// A prepared scene, and the computation of one pixel in one batch.
 class ReferenceScene {
  public:
   ReferenceScene(const Scene& scene, const RenderSettings& settings, const ReferenceSettings& reference,
@@ -116,8 +116,8 @@ class ReferenceScene {
     return materials_[std::size_t(plan_.material_of_drawable[geometry_.DrawableOf(hit)])];
   }
 
-  // Linear light, premultiplied, at one place of the picture: the nearest opaque or tested surface, over it what
-  // blends.
+  // Linear light, premultiplied, at one position in the image: blended surfaces composited over the nearest opaque or
+  // alpha-tested surface.
   glm::dvec4 At(const glm::dvec2& place, SampleRun run, Scratch& scratch) const {
     geometry_.HitsAt(place, scratch.candidates, scratch.hits);
     const Hit* nearest = nullptr;
@@ -161,7 +161,7 @@ class ReferenceScene {
     return color;
   }
 
-  // Radiance, and alpha in [0, 1]. What is not finite becomes black and transparent, and is counted.
+  // Radiance, and alpha in [0, 1]. Values that are not finite become black and transparent, and are counted.
   glm::dvec4 Shade(const Hit& hit, const SampleRun& run) const {
     const SurfacePoint point = geometry_.SurfaceAt(hit);
     const ExactMaterial& material = MaterialAt(hit);
@@ -186,7 +186,7 @@ class ReferenceScene {
   mutable std::atomic<std::uint64_t> non_finite_{0};
 };
 
-// The overall errors of a film whose `standard_error` is filled. What is not known is 0, and adds nothing.
+// Computes the overall errors of a film from its `standard_error`. Unknown pixels are 0 and add nothing.
 void SumUp(ReferenceFilm& film) {
   double light = 0.0, error = 0.0;
   for (std::size_t i = 0; i < film.pixels.size(); ++i) {
@@ -247,29 +247,29 @@ class ReferenceRun::Work {
 
   double SecondsFor(double relative_error) const {
     if (film_.relative_error <= relative_error) return film_.seconds;
-    // More batches are made of the whole picture only. The error of a mean falls with the root of their number.
+    // Further batches always cover the whole image. The error of the mean falls with the root of their number.
     const double share = double(film_.known_pixels) / double(film_.pixels.size());
     const double ratio = film_.relative_error / relative_error;
     return preparation_seconds_ + blocks_seconds_ / share * film_.batches * ratio * ratio / 2.0;
   }
 
  private:
-  // Each of at least so many blocks with light in them, but no more than that of black ones, is made whatever the time.
+  // At least this many blocks that are not black are rendered in any case, as long as no more than that are black.
   static constexpr std::size_t kFewestLitBlocks = 16, kFewestBlocks = 128;
   static constexpr int kFewestForTarget = 4;            // batches
   static constexpr double kSecondsBetweenWords = 0.25;  // of progress
 
   double Elapsed() const { return reference_.clock() - start_; }
 
-  // Of one batch, for whoever watches: blocks count as they are made.
+  // Progress of one batch, in rendered blocks.
   void Tell() const {
     if (!settings_.progress) return;
     const double done = film_.whole ? film_.batches : 2.0 * double(film_.blocks.size()) / double(order_.size());
     settings_.progress(done / reference_.batches);
   }
 
-  // Adds the batch to what is known of pixel (x, y) from as many as `batch`: Welford, 1962, Note on a Method for
-  // Calculating Corrected Sums of Squares and Products.
+  // Adds one batch to the mean and variance of pixel (x, y), which `batch` batches have been added to before: Welford,
+  // 1962, Note on a Method for Calculating Corrected Sums of Squares and Products.
   void AddBatch(int x, int y, int batch, ReferenceScene::Scratch& scratch) {
     const std::size_t i = std::size_t(y) * std::size_t(film_.width) + std::size_t(x);
     const glm::dvec4 value = prepared_.Pixel(x, y, batch, scratch);
@@ -280,7 +280,7 @@ class ReferenceRun::Work {
     film_.standard_error[i] = glm::sqrt(squares_[i] / (n * std::max(n - 1.0, 1.0)));
   }
 
-  // Whether there is light in it.
+  // Whether the block is not black.
   bool MakeBlock(const PixelBlock& block, ReferenceScene::Scratch& scratch) {
     glm::dvec4 sum(0.0);
     for (int y = block.y; y < block.y + block.height; ++y) {
@@ -298,7 +298,7 @@ class ReferenceRun::Work {
     const double before = Elapsed();
     while (next_block_ < order_.size() && !(HasEnough() && Elapsed() >= seconds)) {
       const double pause = std::min(Elapsed() + kSecondsBetweenWords, seconds);
-      // Each thread takes the next block until it is time: what is made is always the order's beginning.
+      // Each thread takes the next block until time is up, so that the rendered blocks are the first of the order.
       ParallelFor(std::size_t(CurrentThreadCount()), 1, [&](std::size_t, std::size_t) {
         ReferenceScene::Scratch scratch;
         do {

@@ -1,9 +1,9 @@
-// The slow, exact renderer: what the rasterizer's pictures are measured against.
+// The slow, exact reference renderer, against which the rasterizer's images are measured.
 //
-// The same scene, camera, material model and conventions, but: double precision; visibility by trying every surface at
-// each sample, without snapping; textures without mip levels; light from all around by integration over the whole
-// environment; no tables. What is random in it (where samples lie, which directions are tried) is drawn from scrambled
-// low-discrepancy sequences, so that every pixel comes with an estimate of its own remaining error.
+// It has the same scene, camera, material model and conventions, but double precision; visibility by testing every
+// surface at each sample, without snapping; textures without mip levels; the environment's light by integration over
+// the whole environment; and no tables. Sample positions and directions come from scrambled low-discrepancy sequences,
+// so that every pixel has an estimate of its own remaining error.
 #pragma once
 
 #include <cstddef>
@@ -22,25 +22,25 @@
 
 namespace facet {
 
-// The picture is the mean of `batches` independent ones. More samples to a batch converge faster than more batches
-// (about as N^-3/4 and N^-1/2); batches are what the error is estimated from.
+// The image is the mean of `batches` independent ones. More samples per batch converge faster than more batches (about
+// as N^-3/4 and N^-1/2); the error is estimated from the differences between batches.
 struct ReferenceSettings {
-  // Samples per pixel and batch, over a box one pixel wide. Best are powers of two. 1 to 65536.
+  // Samples per pixel and batch, over a box one pixel wide; best a power of two. 1 to 65536.
   int samples = 64;
-  // Of each of three kinds (towards bright parts of the environment, the specular lobe, the cosine), for each sample of
-  // a lit surface. Best are powers of two. 1 to 1024.
+  // Directions of each of three kinds (towards bright parts of the environment, by the specular lobe, by the cosine)
+  // for each sample of a lit surface; best a power of two. 1 to 1024.
   int environment_samples = 2;
-  // The most batches, 2 to 65536.
+  // The maximum number of batches, 2 to 65536.
   int batches = 16;
-  // Stops as soon as ReferenceFilm::relative_error is no larger and there are 4 batches at least. 0: never.
+  // Stops when ReferenceFilm::relative_error is no larger than this, after at least 4 batches. 0: never.
   double target_error = 0.0;
-  // Seconds by `clock`, from where the scene is made ready. They are spent on two batches of one block of the picture
-  // after the other, spread evenly from the first on; where time is left, on further batches of all pixels. What was
-  // not reached is left out; a few blocks are always made. How much is done, and so the picture, then depends on the
-  // machine's speed; what is known of a pixel does not.
+  // Seconds by `clock`, counted from the preparation of the scene. First, blocks that are spread evenly over the image
+  // get two batches each; in the remaining time all pixels get further batches. Blocks that are not reached stay
+  // unknown; a few are always rendered. The amount of work, and so the image, depends on the machine's speed; the
+  // values of a pixel after so many batches do not.
   double time_budget = std::numeric_limits<double>::infinity();
   Clock clock = SteadySeconds;
-  // Another seed, another picture, independent of the first.
+  // Different seeds give independent images.
   std::uint64_t seed = 0;
 };
 
@@ -48,36 +48,36 @@ struct ReferenceFilm {
   int width = 0;
   int height = 0;
   std::vector<glm::dvec4> pixels;          // as in Film: linear light, premultiplied by coverage alpha
-  std::vector<glm::dvec4> standard_error;  // of each number of `pixels`: of the mean over the batches
-  // What it knows; pixels elsewhere are 0.
+  std::vector<glm::dvec4> standard_error;  // of each component of `pixels`, as a mean over the batches
+  // The known blocks; pixels elsewhere are 0.
   std::vector<PixelBlock> blocks;
   std::size_t known_pixels = 0;
-  bool whole = false;           // all of them
-  double rms_error = 0.0;       // root of the mean square of R, G and B's standard errors, where it is known
-  double relative_error = 0.0;  // that, divided by the root of the mean square of R, G and B; 0 for a black picture
+  bool whole = false;           // all pixels are known
+  double rms_error = 0.0;       // root mean square of the standard errors of R, G and B over known pixels
+  double relative_error = 0.0;  // rms_error divided by the root mean square of R, G and B; 0 for a black image
   int batches = 0;
   double seconds = 0.0;            // by the clock
-  std::vector<std::string> notes;  // what was replaced or done without, one line each
+  std::vector<std::string> notes;  // what was replaced or ignored, one line each
 };
 
-// A reference that is made piece by piece.
+// A reference that can be computed in several steps.
 //
-// Of `settings` it reads the picture's size, threads, scene, animation, time, variant, camera, environment, background,
-// what it is without, and progress (called now and then from the thread that waits); no choice of approximation. Apart
-// from how much there is time for, the same bits on any number of threads.
+// Of `settings` it reads the image's size, threads, scene, animation, time, variant, camera, environment, background,
+// disabled features, and progress (called now and then from the waiting thread), but no approximations. Apart from how
+// much there is time for, the bits are the same for any number of threads.
 class ReferenceRun {
  public:
-  // Makes the scene ready, which must outlive it. Throws Error as Render() does, and InvalidUsage for reference
-  // settings out of range or a fragment shader of one's own.
+  // Prepares the scene, which must outlive this object. Throws Error as Render() does, and InvalidUsage for reference
+  // settings out of range and for users' fragment shaders.
   ReferenceRun(const Scene& scene, const RenderSettings& settings, const ReferenceSettings& reference = {});
   ~ReferenceRun();
 
-  // Goes on until `seconds` have gone by since its making began, in place of ReferenceSettings::time_budget. The
-  // picture as it is then. Once there is one, a call may find that there is no time left for more.
+  // Continues until `seconds` have passed since construction, instead of ReferenceSettings::time_budget, and returns
+  // the image at that point. After the first call, there may be no time for further work.
   const ReferenceFilm& Continue(double seconds);
 
-  // How many seconds, from its making on, it would probably take to have no more `relative_error`. Of a run that has
-  // been continued.
+  // An estimate of the number of seconds since construction that reaching `relative_error` takes. Only after the image
+  // has been computed once.
   double SecondsFor(double relative_error) const;
 
  private:
@@ -85,7 +85,7 @@ class ReferenceRun {
   std::unique_ptr<Work> work_;
 };
 
-// The same at once.
+// Computes a reference in one call.
 ReferenceFilm RenderReference(const Scene& scene, const RenderSettings& settings,
                               const ReferenceSettings& reference = {});
 

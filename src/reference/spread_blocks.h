@@ -1,4 +1,4 @@
-// The order in which a reference's picture is made where there may be no time for all of it.
+// The order in which the blocks of a reference image are rendered if there may not be time for all of them.
 #pragma once
 
 #include <cstdint>
@@ -11,15 +11,14 @@ struct PixelBlock {
   int x = 0, y = 0, width = 0, height = 0;
 };
 
-// Of small blocks there are many in a second, which tell more of a picture than few large ones; FLIP, whose filters
-// reach some ten pixels far, wants them large. Of DamagedHelmet (512 x 512 pixels) a third of the blocks gives the
-// relative RMSE to 8 % with this side and to 15 % with twice that; the mean FLIP of all blocks by themselves is 3 % and
-// 1 % above the picture's.
-inline constexpr int kBlockSide = 16;  // pixels; less at the right and at the bottom
+// The size of a block. Many small blocks represent an image better than a few large ones in the same time; FLIP, whose
+// filters reach about ten pixels far, needs large ones. For DamagedHelmet (512 x 512 pixels), a third of the blocks
+// gives the relative RMSE to 8 % with this side, and to 15 % with twice the side; the mean FLIP over separate blocks is
+// 3 % and 1 % above that of the whole image.
+inline constexpr int kBlockSide = 16;  // pixels; smaller at the right and bottom edges
 
-// Every block of a picture once, those that come first spread evenly over it: in the order of a scrambled sequence of
-// Sobol's, by which each block is as likely as any other to come at any place. So the first n are a fair sample of the
-// picture.
+// All blocks of an image, in an order in which the first ones are spread evenly over it: that of a scrambled Sobol
+// sequence, in which all blocks are equally likely at every position, so that the first n are an unbiased sample.
 std::vector<PixelBlock> SpreadBlocks(int picture_width, int picture_height, std::uint64_t seed);
 
 }  // namespace facet

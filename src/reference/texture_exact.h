@@ -1,4 +1,4 @@
-// Textures without mip levels: many samples a pixel do the filtering.
+// Textures for the reference, without mip levels: many samples per pixel filter them.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -11,15 +11,15 @@
 
 namespace facet {
 
-// A picture's texels in double, as the file has them: sRGB decoded to linear light where the role is Color, no rounding
-// to 16 bits. Immutable.
+// An image's texels in double: sRGB is decoded to linear light if the role is Color, without rounding to 16 bits.
+// Immutable.
 class ExactTexels {
  public:
   ExactTexels(std::shared_ptr<const Image> image, TextureRole role);
 
   // Bilinear or nearest between texels as `sampler.magnification` says: a sample's footprint is smaller than a texel,
-  // or becomes so with enough samples. `uv` after KHR_texture_transform; not finite counts as 0. Alpha is 1 where the
-  // picture has none.
+  // or becomes so with enough samples. `uv` after KHR_texture_transform; not finite counts as 0. Alpha is 1 if the
+  // image has none.
   glm::dvec4 Sample(const glm::dvec2& uv, const Sampler& sampler) const;
 
  private:

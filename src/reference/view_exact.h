@@ -1,4 +1,4 @@
-// The camera of a reference picture, in double and without snapping.
+// The camera of a reference image, in double and without snapping.
 #pragma once
 
 #include <algorithm>
@@ -25,7 +25,7 @@ struct ExactView {
         eye_world(camera.world_from_camera[3]),
         camera_from_world(glm::transpose(glm::dmat3(camera.world_from_camera))) {}
 
-  // Of a place in the picture, in pixels.
+  // From a position in the image, in pixels.
   glm::dvec3 ScreenAt(const glm::dvec2& place) const {
     return {(place.x - 0.5 * width) * pixel, (0.5 * height - place.y) * pixel, 1.0};
   }
@@ -36,12 +36,12 @@ struct ExactView {
   glm::dvec3 ScreenOf(const glm::dvec3& in_camera) const {
     return {in_camera.x, in_camera.y, perspective ? -in_camera.z : 1.0};
   }
-  // The direction in which a place of the picture looks: unit, world axes.
+  // The view direction at a position in the image: unit, world axes.
   glm::dvec3 DirectionThrough(const glm::dvec2& place) const {
     const glm::dvec3 s = ScreenAt(place);
     return glm::normalize((perspective ? glm::dvec3(s.x, s.y, -1.0) : glm::dvec3(0.0, 0.0, -1.0)) * camera_from_world);
   }
-  // What surfaces are ordered by, rounded to the picture's convention: larger is nearer.
+  // The depth by which surfaces are ordered, as a float by the rasterizer's convention: larger is nearer.
   float DepthAt(double distance) const { return RoundToFloat(perspective ? 1.0 / distance : -distance); }
 
   int width, height;

@@ -9,15 +9,15 @@
 namespace facet {
 namespace {
 
-// The keys on both sides of a moment, and where between them it lies.
+// The keys on both sides of a time, and its position between them.
 struct Span {
   std::size_t key = 0;
-  std::size_t next = 0;   // == key: exactly at a key, or beyond the ends
+  std::size_t next = 0;   // equal to `key` exactly at a key and beyond the ends
   double share = 0.0;     // [0, 1)
   double duration = 0.0;  // seconds
 };
 
-// Of keys at one time the last counts there: the span before ends at the first of them.
+// Of several keys at the same time the last one counts at that time; the interval before ends at the first.
 Span FindSpan(const std::vector<float>& times, double time) {
   if (time >= double(times.back())) return {times.size() - 1, times.size() - 1, 0.0, 0.0};
   const auto after = std::upper_bound(times.begin(), times.end(), time, [](double t, float key) { return t < key; });
@@ -28,7 +28,7 @@ Span FindSpan(const std::vector<float>& times, double time) {
   return {next - 1, next, (time - start) / duration, duration};
 }
 
-// Component `c` of the `width` that every key has.
+// Component `c` of the value of a key, which has `width` components.
 double SampleComponent(const AnimationChannel& channel, const Span& span, std::size_t width, std::size_t c) {
   const std::vector<float>& values = channel.values;
   if (channel.interpolation == Interpolation::CubicSpline) {

@@ -17,8 +17,8 @@ void AddPoint(const glm::dvec3& point, Bounds& bounds) {
   bounds.empty = false;
 }
 
-// The box of place(position) over all positions. Pieces are joined in their order: even a zero's sign is the same for
-// any number of threads.
+// The box of place(position) over all positions. Partial results are joined in order, so that even the sign of a zero
+// is the same for any number of threads.
 template <class Place>
 Bounds BoundsOfPlaced(const std::vector<glm::vec3>& positions, const Place& place) {
   std::vector<Bounds> pieces((positions.size() + kVerticesPerPiece - 1) / kVerticesPerPiece);
@@ -32,7 +32,7 @@ Bounds BoundsOfPlaced(const std::vector<glm::vec3>& positions, const Place& plac
   return bounds;
 }
 
-// True if the matrix only scales, mirrors and permutes axes: then it takes boxes to boxes.
+// Whether the matrix only scales, mirrors and permutes axes, so that it maps boxes to boxes.
 bool KeepsBoxes(const glm::dmat4& m) {
   for (int r = 0; r < 3; ++r) {
     const int nonzero = (m[0][r] != 0.0) + (m[1][r] != 0.0) + (m[2][r] != 0.0);
@@ -64,7 +64,7 @@ void AddPlaced(const std::vector<glm::vec3>& positions, const Bounds& local, con
   }
   const bool inside = !bounds.empty && !corners.empty && glm::all(glm::lessThanEqual(bounds.low, corners.low)) &&
                       glm::all(glm::lessThanEqual(corners.high, bounds.high));
-  if (inside) return;  // most of many instances lie between the others
+  if (inside) return;  // with many instances, most lie between the others
   if (KeepsBoxes(world_from_mesh)) {
     AddBounds(corners, bounds);
   } else {
@@ -88,7 +88,7 @@ void AddReach(const std::vector<glm::vec3>& positions, const Bounds& local, cons
     corners2 = std::max(corners2, distance2({i & 1 ? local.high.x : local.low.x, i & 2 ? local.high.y : local.low.y,
                                              i & 4 ? local.high.z : local.low.z}));
   }
-  // Sums are rounded: the farthest corner of a box is as far as what it holds, but for a little.
+  // A small margin, since rounding can make the farthest corner of the box nearer than a point in it.
   constexpr double kRounding = 1e-9;
   if (corners2 * (1.0 + kRounding) <= reach * reach) return;
   std::vector<double> pieces((positions.size() + kVerticesPerPiece - 1) / kVerticesPerPiece, 0.0);

@@ -1,4 +1,4 @@
-// Boxes around vertices.
+// Bounding boxes of vertices.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -8,19 +8,20 @@
 
 namespace facet {
 
-// The box of the finite ones among `positions`, whether an index uses them or not.
+// The box of all finite positions, whether an index uses them or not.
 Bounds BoundsOf(const std::vector<glm::vec3>& positions);
 
-// Makes `bounds` hold another box.
+// Enlarges `bounds` to contain another box.
 void AddBounds(const Bounds& other, Bounds& bounds);
 
-// Makes `bounds` hold every finite one of `positions`, placed by `world_from_mesh`. Exact: the box of the placed
-// vertices, not of the placed box, which is larger where the matrix turns. `local` must be BoundsOf(positions).
+// Enlarges `bounds` to contain all finite positions, transformed by `world_from_mesh`. Exact: the box of the
+// transformed vertices, not of the transformed box, which is larger if the matrix rotates. `local` must be
+// BoundsOf(positions).
 void AddPlaced(const std::vector<glm::vec3>& positions, const Bounds& local, const glm::dmat4& world_from_mesh,
                Bounds& bounds);
 
-// Raises `reach` to the largest distance of a placed position from a point of the world. Positions that are not finite
-// are skipped. Runs in parallel; the result does not depend on it.
+// Raises `reach` to the largest distance of a transformed position from a point in world space. Positions that are not
+// finite are skipped. Runs in parallel; the result does not depend on the number of threads.
 void AddReach(const std::vector<glm::vec3>& positions, const Bounds& local, const glm::dmat4& world_from_mesh,
               const glm::dvec3& point, double& reach);
 

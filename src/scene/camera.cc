@@ -15,7 +15,7 @@ namespace {
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kDegree = kPi / 180.0;
 constexpr double kFieldOfView = 45.0 * kDegree;
-constexpr double kMargin = 1.05;        // how much larger than the bounds the framed picture is
+constexpr double kMargin = 1.05;        // the size of the framed area, relative to the bounds
 constexpr double kNearFraction = 1e-5;  // of the distance or of the bounds, whichever is larger
 
 [[noreturn]] void Fail(const std::string& message, const std::string& hint = {}) {
@@ -50,19 +50,19 @@ CameraAxes OrbitAxes(double theta, double phi) {
   return axes;
 }
 
-// Where the eye stands relative to the target to see everything.
+// The position of the eye relative to the target from which everything is visible.
 struct Framing {
   double distance, right, up;
 };
 
-// The eye may move aside, so that the margins on opposite sides of the picture are equal.
+// The eye may move sideways, so that the margins on opposite sides of the image are equal.
 Framing FrameAll(const PosedScene& posed, const glm::dvec3& target, const CameraAxes& axes, double tan_x,
                  double tan_y) {
   const double tx = tan_x / kMargin, ty = tan_y / kMargin;
   const ViewExtent seen = MeasureView(posed, target, axes, tx, ty);
   Framing framing = {std::max((seen.right + seen.left) / (2.0 * tx), (seen.top + seen.bottom) / (2.0 * ty)),
                      (seen.right - seen.left) / 2.0, (seen.top - seen.bottom) / 2.0};
-  // A line seen end on would have the eye at its end, a single point at itself.
+  // Otherwise the eye would be at the end of a line that is seen end on, or at a single point.
   const double size = posed.bounds.empty ? 1.0 : glm::length(posed.bounds.high - posed.bounds.low);
   framing.distance = std::max(framing.distance, seen.nearest + 1e-3 * size);
   if (!(framing.distance > 0.0)) framing.distance = 1.0;
@@ -99,7 +99,7 @@ ResolvedCamera ResolveAuto(const AutoCamera& automatic, const PosedScene& posed,
 const OrbitBall& Ball(const Scene& scene, const PosedScene& posed, const std::optional<glm::dvec3>& centre,
                       KnownBall& known) {
   PoseSettings pose = posed.settings;
-  pose.time = 0.0;  // it is the same at all times
+  pose.time = 0.0;  // the result does not depend on it
   if (!known.ball || known.pose != pose || known.centre != centre) {
     known = {pose, centre, MeasureBall(scene, posed, centre)};
   }
@@ -131,7 +131,7 @@ glm::dvec3 NormalizedOr(const glm::dvec3& v, const glm::dvec3& otherwise) {
   return length > 0.0 && std::isfinite(length) ? v / length : otherwise;
 }
 
-// Fits a lens to a picture of another shape: all that the lens frames stays visible, and more is seen on two sides.
+// Fits a lens to an image of another aspect ratio: all that the lens frames stays visible, with more on two sides.
 // Source: glTF 2.0 specification, section 3.10.3: no cropping, no stretching.
 void FitLens(double aspect, Camera& lens) {
   if (lens.orthographic) {
@@ -175,7 +175,8 @@ ResolvedCamera ResolveSceneCamera(int index, const Scene& scene, const PosedScen
   return camera;
 }
 
-// What follows takes the transpose for the inverse. NaN fails every comparison.
+// Whether the matrix is rigid, so that its transpose can serve as its inverse. False for NaN, which fails every
+// comparison.
 void CheckRigid(const glm::dmat4& m) {
   constexpr double kTolerance = 1e-6;
   const glm::dmat3 axes(m);

@@ -20,7 +20,7 @@ glm::dvec3 NormalizedOr(const glm::dvec3& v, const glm::dvec3& otherwise) {
   return length > 0.0 && std::isfinite(length) ? v / length : otherwise;
 }
 
-// The weight and the displacements of each target that changes the attribute; `list` finds a target's array.
+// The weight and the displacements of each target that changes an attribute; `list` returns a target's array of it.
 template <class T, class List>
 std::vector<std::pair<double, const T*>> ActiveTargets(const Primitive& primitive, const std::vector<float>& weights,
                                                        const List& list) {
@@ -50,7 +50,7 @@ void Displace(const std::vector<std::pair<double, const T*>>& active, std::vecto
   });
 }
 
-// The matrix by whose multiples normals are transformed: determinant * inverse transpose.
+// The matrix that transforms normals, up to a factor: determinant * inverse transpose.
 glm::dmat3 Cofactors(const glm::dmat3& m) {
   return {glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1])};
 }
@@ -77,7 +77,7 @@ glm::dmat4 Blend(const JointMatrices& matrices, const Primitive& influences, std
   for (const auto& set : influences.weights) {
     for (int c = 0; c < 4; ++c) sum += set[vertex][c] > 0.0f ? double(set[vertex][c]) : 0.0;
   }
-  if (sum == 0.0) {  // exporters forget weights; what they meant is most often the first joint
+  if (sum == 0.0) {  // some exporters forget weights; most often they mean the first joint
     const std::size_t joint = influences.joints.empty() ? 0 : influences.joints[0][vertex][0];
     const bool exists = joint < matrices.local_from_mesh.size();
     return exists ? matrices.local_from_mesh[joint] : matrices.unskinned_from_mesh;
@@ -172,7 +172,7 @@ void ApplySkin(const JointMatrices& matrices, const Primitive& influences, const
       const glm::dmat3 cofactors = Cofactors(linear);
       const double handedness = glm::dot(linear[0], cofactors[0]) < 0.0 ? -1.0 : 1.0;  // sign of the determinant
       const glm::dvec3 normal(primitive.normals[i]);
-      // A matrix that flattens to less than a plane leaves no normal; the image of the old one is as good as any.
+      // A matrix that flattens the mesh to a line or a point leaves no normal; the transformed old one is used instead.
       const glm::dvec3 fallback = NormalizedOr(linear * normal, normal);
       primitive.normals[i] = glm::vec3(NormalizedOr(handedness * (cofactors * normal), fallback));
       if (primitive.tangents.empty()) continue;

@@ -14,7 +14,7 @@ namespace {
 constexpr double kNothing = -std::numeric_limits<double>::infinity();
 constexpr std::size_t kGrain = 16384;  // vertices
 
-// The five measures are linear in the position: one row each.
+// The five measures are linear in the position; each is one row of a matrix.
 struct Rows {
   glm::dvec4 row[5];
 
@@ -29,7 +29,7 @@ struct Rows {
     for (int i = 0; i < 5; ++i) row[i] = world.row[i] * world_from_mesh;
   }
 
-  // True if no point within the box can be beyond what is there already. Sums are rounded: a bound has a little more.
+  // Whether no point of the box can exceed the current maxima, with a small margin for rounding.
   bool NoneBeyond(const Bounds& box, const double (&largest)[5]) const {
     for (int i = 0; i < 5; ++i) {
       const glm::dvec3 a = glm::dvec3(row[i]) * box.low, b = glm::dvec3(row[i]) * box.high, most = glm::max(a, b);
@@ -48,7 +48,7 @@ struct Rows {
   }
 };
 
-// Moments spread over the animation that a pose is taken from; none where there is no animation, or it does not move.
+// Times spread evenly over the animation; none if there is no animation or nothing moves.
 std::vector<PoseSettings> PosesOfAnimation(const Scene& scene, const PoseSettings& pose) {
   constexpr int kMoments = 17;
   std::vector<PoseSettings> poses;

@@ -1,4 +1,4 @@
-// Where a camera has to stand to see the whole scene.
+// Framing: how far away a camera must be to see the whole scene.
 #pragma once
 
 #include <optional>
@@ -7,33 +7,32 @@
 
 namespace facet {
 
-// Unit vectors of a camera at rest in world space.
+// The unit vectors of a camera in world space.
 struct CameraAxes {
   glm::dvec3 right, up, back;
 };
 
-// Of all points of a scene, seen from far away along -axes.back: how far they reach to each side. A point at (x, y, z)
-// from the target is inside the picture of an eye at distance d when |x| <= tan_x * (d - z) and |y| <= tan_y * (d - z),
-// so the largest x + tan_x * z decides how far the right edge has to be, and so on.
+// How far the points of a scene extend to each side, as seen along -axes.back. A point at (x, y, z) from the target is
+// inside the image of an eye at distance d if |x| <= tan_x * (d - z) and |y| <= tan_y * (d - z). The largest x + tan_x
+// * z therefore decides how far away the right edge must be, and so on.
 struct ViewExtent {
-  double right, left, top, bottom;  // of x + tan_x z, -x + tan_x z, y + tan_y z, -y + tan_y z
-  double nearest;                   // of z
+  double right, left, top, bottom;  // maxima of x + tan_x z, -x + tan_x z, y + tan_y z, -y + tan_y z
+  double nearest;                   // maximum of z
 };
 
-// Over the vertices of all drawables, or the corners of the bounds where there is none. Not finite ones are skipped.
-// Runs in parallel; the result does not depend on it.
+// Measures the vertices of all drawables, or the corners of the bounds if there are none. Positions that are not finite
+// are skipped. Runs in parallel; the result does not depend on the number of threads.
 ViewExtent MeasureView(const PosedScene& posed, const glm::dvec3& target, const CameraAxes& axes, double tan_x,
                        double tan_y);
 
-// What an orbit without a radius turns about and keeps in view: a ball around all vertices, in every pose of the
-// animation that was chosen (some moments of it, from the first key to the last), so that neither the angle nor the
-// time moves the eye nearer or farther.
+// A ball around all vertices in all poses of the chosen animation (sampled from the first key to the last). An orbit
+// without a radius keeps it in view, so that the distance of the eye depends neither on the angle nor on the time.
 struct OrbitBall {
   glm::dvec3 centre{0.0};
   double radius = 0.0;  // of the bounds where nothing is drawn
 };
 
-// The ball of a scene that is posed. `centre`: none: the centre of the bounds of all those poses.
+// The ball of a posed scene. `centre`: none stands for the centre of the bounds over all sampled poses.
 OrbitBall MeasureBall(const Scene& scene, const PosedScene& posed, const std::optional<glm::dvec3>& centre);
 
 }  // namespace facet

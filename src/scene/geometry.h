@@ -1,4 +1,4 @@
-// Changes of how a primitive's vertices are laid out.
+// Conversions of a primitive's topology and vertex arrays.
 #pragma once
 
 #include <cstdint>
@@ -15,11 +15,12 @@ std::vector<std::uint32_t> TriangleCorners(const Primitive& primitive);
 // Makes `primitive`, which must be of triangles in any form, a list of triangles with indices.
 void MakeTriangleList(Primitive& primitive);
 
-// Rewrites every vertex array so that new vertex i is a copy of old vertex source[i]. Indices are left alone.
+// Rewrites all vertex arrays so that new vertex i is a copy of old vertex source[i]. Does not change the indices.
 void GatherVertices(const std::vector<std::uint32_t>& source, Primitive& primitive);
 
-// Gives every corner of every triangle a vertex of its own, and the triangle's geometric normal; tangents are dropped.
-// A triangle without area gets +Z. Needs a primitive of triangles in any form; makes it a list without indices.
+// Makes flat normals: every corner of every triangle gets its own vertex with the triangle's geometric normal (+Z for a
+// triangle without area). Tangents are dropped. The primitive, of triangles in any form, becomes a list without
+// indices.
 void MakeFlat(Primitive& primitive);
 
 }  // namespace facet

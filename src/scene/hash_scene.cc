@@ -11,8 +11,8 @@
 namespace facet {
 namespace {
 
-// Every number of a value, in the order of its declaration. Structs are hashed field by field: their padding holds
-// anything.
+// Hashes all members of a value in the order of their declaration. Structs are hashed field by field, because padding
+// has no defined value.
 class Description {
  public:
   template <class T>
@@ -114,7 +114,7 @@ Digest HashTextures(const Scene& scene) {
       Image image;
       try {
         image = scene.images[i].source->Decode();
-      } catch (const Error& error) {  // rendering goes on without it, too
+      } catch (const Error& error) {  // rendering ignores it as well
         if (error.code() == ErrorCode::OutOfMemory) throw;
       }
       digests[i] = HashImage(image);

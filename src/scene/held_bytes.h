@@ -1,4 +1,4 @@
-// How much memory a scene takes, for the budgets of those that keep one.
+// The memory that scenes take, to be charged to memory budgets.
 #pragma once
 
 #include <cstdint>
@@ -8,13 +8,13 @@
 
 namespace facet {
 
-// Of the arrays, not of the struct itself.
+// The bytes of the arrays, without the struct itself.
 std::uint64_t HeldBytes(const Primitive& primitive);
 
-// Geometry, nodes, animations, and encoded images; names and what a material takes count as well.
+// Geometry, nodes, animations, encoded images, materials and names.
 std::uint64_t HeldBytes(const Scene& scene);
 
-// Without the scene that it was made from.
+// Without the scene that it refers to.
 std::uint64_t HeldBytes(const PosedScene& posed);
 
 }  // namespace facet

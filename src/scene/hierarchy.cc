@@ -19,7 +19,7 @@ std::vector<int> Roots(const Scene& scene) {
   return roots;
 }
 
-// Where the chosen scene begins.
+// The roots of the chosen scene.
 std::vector<int> Starts(const Scene& scene, int scene_index) {
   if (scene_index < 0) scene_index = scene.default_scene;
   if (scene_index < 0 && !scene.scenes.empty()) scene_index = 0;
@@ -66,7 +66,7 @@ PosedNodes PlaceNodes(const Scene& scene, int scene_index, const Animation* anim
         posed.weights[i] = &posed.sampled.emplace_back(SampleWeights(channel, time));
         continue;
       }
-      // glTF forbids to animate a node that has a matrix; the matrix's parts that are not animated are kept.
+      // glTF forbids animating a node that has a matrix. If it happens, the components that are not animated are kept.
       if (!animated[i] && scene.nodes[i].matrix) transforms[i] = ToTransform(*scene.nodes[i].matrix);
       animated[i] = true;
       if (channel.path == AnimationPath::Translation) transforms[i].translation = SampleVector(channel, time);
@@ -79,7 +79,7 @@ PosedNodes PlaceNodes(const Scene& scene, int scene_index, const Animation* anim
   const auto local = [&](std::size_t i) {
     return scene.nodes[i].matrix && !animated[i] ? *scene.nodes[i].matrix : ToMatrix(transforms[i]);
   };
-  std::vector<bool> in_scene(count, false);  // starts, and as the walk comes to them, those below
+  std::vector<bool> in_scene(count, false);  // the roots, and their descendants as the walk reaches them
   for (const int start : Starts(scene, scene_index)) in_scene[std::size_t(start)] = true;
   std::vector<int> open = Roots(scene);
   for (const int root : open) posed.world_from_node[std::size_t(root)] = local(std::size_t(root));
@@ -101,7 +101,7 @@ std::vector<int> NodesOf(const Scene& scene, int scene_index, bool with_hidden) 
   const std::vector<int> starts = Starts(scene, scene_index);
   std::vector<int> order;
   std::vector<bool> seen(scene.nodes.size(), false);
-  std::vector<int> open(starts.rbegin(), starts.rend());  // a stack of our own: hierarchies can be deep
+  std::vector<int> open(starts.rbegin(), starts.rend());  // an explicit stack, since hierarchies can be deep
   while (!open.empty()) {
     const int index = open.back();
     open.pop_back();

@@ -22,7 +22,7 @@
 namespace facet {
 namespace {
 
-// One geometry of the posed scene: a primitive of the scene, or a deformed or completed copy of it.
+// One geometry of the posed scene: a primitive of the scene, or a copy that is deformed or has generated attributes.
 struct Shape {
   const Primitive* primitive = nullptr;
   int mesh = -1, index = -1;  // of the primitive in its mesh
@@ -33,12 +33,12 @@ struct Shape {
   TextureRef normal_map;
   bool IsDeformed() const { return morphed || joints != nullptr; }
   bool NeedsNormals() const { return needs_tangents && primitive->normals.empty(); }
-  bool IsCopy() const { return IsDeformed() || NeedsNormals(); }  // flat normals want vertices of their own
+  bool IsCopy() const { return IsDeformed() || NeedsNormals(); }  // flat normals need separate vertices
   std::string Where() const { return "mesh " + std::to_string(mesh) + ", primitive " + std::to_string(index); }
 };
 
-// What Pose and PosedBounds have in common: which geometries there are and where each is drawn. Its shapes point into
-// the nodes' weights and the joints, whose addresses a move keeps.
+// What Pose() and PosedBounds() have in common: the geometries, and where each is drawn. Shapes point to the nodes'
+// weights and to the joints, whose addresses do not change when the plan is moved.
 struct Plan {
   std::vector<MemoryLease> memory;
   std::vector<Shape> shapes;
@@ -73,7 +73,7 @@ int MaterialOf(const Primitive& primitive, int variant) {
   return primitive.material;
 }
 
-// The first texture that shading will read in tangent space, by the same rule as the plan of the frame has; null: none.
+// The first texture that shading reads in tangent space, by the rule of the frame plan; null: none.
 const TextureRef* TangentSpaceTexture(const Scene& scene, const Material& material) {
   const MaterialFeatures read = FeaturesOf(material);
   for (const SlotInfo& slot : kSlots) {
@@ -97,14 +97,14 @@ Shape MakeShape(const Scene& scene, const Primitive& primitive, int material, co
   return shape;
 }
 
-using SharedShapes = std::map<const Primitive*, std::size_t>;  // undeformed: the same for all nodes with the mesh
+using SharedShapes = std::map<const Primitive*, std::size_t>;  // undeformed shapes, shared by all nodes with the mesh
 
 // The index in plan.shapes of each primitive of the node's mesh (of no meaning for those without vertices).
 std::vector<std::size_t> AddShapes(const Scene& scene, int node_index, const PoseSettings& settings,
                                    SharedShapes& shared, Plan& plan) {
   const Node& node = scene.nodes[std::size_t(node_index)];
   const Mesh& mesh = scene.meshes[std::size_t(node.mesh)];
-  const JointMatrices* joints = nullptr;  // made when a primitive has use for them
+  const JointMatrices* joints = nullptr;  // made when the first primitive uses them
   std::vector<std::size_t> shapes(mesh.primitives.size());
   for (std::size_t p = 0; p < mesh.primitives.size(); ++p) {
     const Primitive& primitive = mesh.primitives[p];
@@ -145,7 +145,7 @@ void AddDrawables(const Scene& scene, int node_index, int variant, const std::ve
     for (std::size_t p = 0; p < mesh.primitives.size(); ++p) {
       if (mesh.primitives[p].positions.empty()) continue;
       const JointMatrices* skin = plan.shapes[shapes[p]].joints;
-      // Joints place a skinned mesh, not its node, and so not the node's instances either: it is drawn once.
+      // A skinned mesh is placed by its joints and not by its node, so the node's instances do not apply.
       if (skin != nullptr && copy > 0) continue;
       Drawable drawable;
       drawable.world_from_mesh = skin != nullptr ? skin->world_from_local : world_from_copy;
@@ -163,8 +163,8 @@ struct PlanSize {
   std::uint64_t drawables = 0, shapes = 0, joints = 0;  // at most
 };
 
-// A small file may ask for any number of them: many nodes and instances may share a mesh of many primitives, many nodes
-// a skin of many joints.
+// Counts what is allocated below, since a small file may ask for any number: many nodes and instances may share a mesh
+// of many primitives, and many nodes a skin of many joints.
 PlanSize SizePlan(const Scene& scene, const PoseSettings& settings, const std::vector<int>& visible) {
   PlanSize size;
   std::vector<bool> has_targets(scene.meshes.size(), false);
@@ -219,7 +219,7 @@ std::vector<std::vector<std::size_t>> DrawablesOfShapes(const Plan& plan) {
 
 constexpr const char* kPosed = "posed geometry";
 
-// What BuildCopy() takes at its most but for tangents, which charge what they take.
+// The most memory that BuildCopy() takes, without that of tangents, which are charged separately.
 std::uint64_t CopyBytes(const Shape& shape) {
   const Primitive& p = *shape.primitive;
   std::uint64_t per_vertex = sizeof(glm::vec3);
@@ -236,13 +236,14 @@ std::uint64_t CopyBytes(const Shape& shape) {
   return vertices * per_vertex + indices * sizeof(std::uint32_t) + p.tex_coords.size() * sizeof(p.tex_coords[0]);
 }
 
-// The deformed, completed copy of a shape's primitive. Tangents are made between morph and skin: morphing moves the
-// surface under its UVs, skinning carries tangents along.
+// The deformed copy of a shape's primitive, with normals and tangents if they are needed. Tangents are generated
+// between morphing and skinning, because morphing moves the surface relative to its UVs, while skinning transforms
+// tangents too.
 Primitive BuildCopy(const Shape& shape) {
   Primitive copy = CopyWithoutDeformers(*shape.primitive);
   if (shape.morphed) ApplyMorph(*shape.primitive, *shape.weights, copy);
   if (shape.joints != nullptr && shape.needs_tangents) {
-    copy.joints = shape.primitive->joints;  // the vertices are about to be split
+    copy.joints = shape.primitive->joints;  // because vertices will be split
     copy.weights = shape.primitive->weights;
   }
   if (shape.NeedsNormals()) MakeFlat(copy);
@@ -255,7 +256,7 @@ Primitive BuildCopy(const Shape& shape) {
   return copy;
 }
 
-// The box of a shape before world_from_mesh, without building more of a deformed copy than its positions.
+// The box of a shape in mesh space. Of a deformed copy only the positions are built.
 Bounds BoundsOfShape(const Shape& shape, std::vector<glm::vec3>& positions) {
   const MemoryLease lease(shape.primitive->positions.size(), sizeof(glm::vec3), kPosed);
   Primitive copy;
@@ -289,7 +290,7 @@ void PlaceCameras(const Scene& scene, int scene_index, const Plan& plan, PosedSc
   }
 }
 
-// Calls visit(positions, their box, world_from_mesh) for everything that is drawn, in mesh space.
+// Calls visit(positions, their box, world_from_mesh) for everything that is drawn; positions are in mesh space.
 template <class Visit>
 void ForEachPlaced(const Scene& scene, const PoseSettings& settings, const Visit& visit) {
   const FloatEnvironment environment;
@@ -333,7 +334,7 @@ PosedScene PoseIncomplete(const Scene& scene, const PoseSettings& settings) {
     }
   });
 
-  // Unless they are deformed, the vertices of the file count, as they do in PosedBounds.
+  // Unless they are deformed, the file's vertices count, as in PosedBounds().
   const auto positions_of = [&](std::size_t i) -> const std::vector<glm::vec3>& {
     const Shape& shape = plan.shapes[i];
     return (shape.IsDeformed() ? geometries[i] : shape.primitive)->positions;

@@ -1,4 +1,4 @@
-// Tangents for normal maps, where the file has none.
+// Generation of tangents for normal maps.
 #pragma once
 
 #include "facet/scene.h"
@@ -13,11 +13,11 @@ namespace facet {
 // with w = 1.
 //
 // The result agrees with MikkTSpace, on which the bakers of normal maps have settled, to the rounding of its floats
-// (below 0.01 degrees on models that are not degenerate). We deviate where it gives no usable tangent: ours are always
-// unit and perpendicular to the normal, and corners whose directions are exactly opposite never cancel (unless
-// more than 256 corners share a tangent). Takes O(n log n) for n corners, whatever the mesh.
-// Source: Mikkelsen 2008, Simulation of wrinkled surfaces revisited (thesis, University of Copenhagen), chapter 3 and
-// appendix A; glTF 2.0 specification, section 3.7.2.1, which turns its v around.
+// (below 0.01 degrees on models that are not degenerate). It deviates where MikkTSpace gives no usable tangent: these
+// tangents are always unit and perpendicular to the normal, and corners whose directions are exactly opposite never
+// cancel (unless more than 256 corners share a tangent). Takes O(n log n) time for n corners of any mesh. Source:
+// Mikkelsen 2008, Simulation of wrinkled surfaces revisited (thesis, University of Copenhagen), chapter 3 and appendix
+// A; glTF 2.0 specification, section 3.7.2.1, which turns its v around.
 void MakeTangents(const TextureRef& normal_map, Primitive& primitive);
 
 }  // namespace facet

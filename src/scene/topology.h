@@ -1,4 +1,4 @@
-// Which vertices make up the n-th triangle, line or point of a primitive.
+// The vertices of the n-th triangle, line or point of a primitive.
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@ constexpr PrimitiveClass ClassOf(Topology topology) {
   }
 }
 
-// How many points, lines or triangles a primitive has; incomplete ones at the end do not count.
+// The number of points, lines or triangles of a primitive, without an incomplete one at the end.
 inline std::uint32_t PrimitiveCount(const Primitive& primitive) {
   const std::size_t n = primitive.indices.empty() ? primitive.positions.size() : primitive.indices.size();
   std::size_t count = 0;
@@ -37,7 +37,7 @@ inline std::uint32_t PrimitiveCount(const Primitive& primitive) {
 }
 
 // The vertices of primitive i, in winding order (glTF 2.0 specification, 3.7.2.1; every other triangle of a strip is
-// turned). Unused entries repeat the last.
+// reversed). Unused entries repeat the last vertex.
 inline std::array<std::uint32_t, 3> PrimitiveVertices(const Primitive& primitive, std::uint32_t i) {
   const std::size_t n = primitive.indices.empty() ? primitive.positions.size() : primitive.indices.size();
   std::array<std::uint32_t, 3> k{};

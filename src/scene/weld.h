@@ -1,4 +1,4 @@
-// Vertices that are the same point of a surface, and triangles that share an edge of it.
+// Welding: finds vertices that are the same point of a surface, and triangles that share an edge.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,8 @@
 
 namespace facet {
 
-// For each vertex of `primitive` the first one with the same position, normal and UV (-0 and +0 are the same).
-// `uvs` has as many entries as there are positions and normals.
+// For each vertex of `primitive` the first vertex with the same position, normal and UV (-0 equals +0). `uvs` has as
+// many entries as there are positions and normals.
 std::vector<std::uint32_t> WeldVertices(const Primitive& primitive, const std::vector<glm::vec2>& uvs);
 
 constexpr std::uint32_t kNoFace = 0xFFFFFFFFu;

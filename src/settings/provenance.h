@@ -1,4 +1,4 @@
-// What a picture that facet wrote says of itself, so that it can be made again.
+// Provenance: the text in a picture file that facet wrote, from which it can be rendered again.
 #pragma once
 
 #include <array>
@@ -24,8 +24,8 @@ struct Provenance {
 // object), "facet:film" and "facet:pixels". Nothing in them depends on the machine or the time.
 std::vector<std::array<std::string, 2>> ToImageText(const Provenance& provenance);
 
-// What a picture's file says of itself; messages call it `name`. Throws Error(InvalidInput) for one that is neither PNG
-// nor EXR, or was not written by facet, or says something that no version of facet writes.
+// Reads the provenance of a picture file; `name` is used in messages. Throws Error(InvalidInput) for a file that is
+// neither PNG nor EXR, was not written by facet, or has content that no version of facet writes.
 Provenance ReadProvenance(std::span<const std::byte> picture, const std::string& name);
 
 }  // namespace facet

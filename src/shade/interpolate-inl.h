@@ -1,5 +1,5 @@
-// Attributes of fragments, perspective-correct, with analytic derivatives of the texture coordinates. T is Float
-// (lanes), float or double.
+// Perspective-correct interpolation of fragments' attributes, with analytic derivatives of the texture coordinates. T
+// is Float (lanes), float or double.
 
 #if defined(FACET_SHADE_INTERPOLATE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef FACET_SHADE_INTERPOLATE_INL_H_
@@ -25,7 +25,8 @@ struct Barycentric {
   T db_dx[3], db_dy[3];  // per pixel
 };
 
-// Where a packet's setups begin, when all its fragments are of one triangle: each number is then read once.
+// The index of the setup that all fragments of a packet share, when they belong to one triangle: each of its components
+// is then loaded once and broadcast.
 struct OneSetup {
   std::int32_t base;
 };
@@ -34,16 +35,17 @@ HWY_INLINE Vec4<T> FetchVec4(const float* p, OneSetup setup) {
   return {T(p[setup.base]), T(p[setup.base + 1]), T(p[setup.base + 2]), T(p[setup.base + 3])};
 }
 
-// `base`: index of each lane's setup times its stride, or OneSetup.
+// `base`: for each lane the index of its setup times the stride, or OneSetup.
 template <class T, class Base>
 HWY_INLINE Barycentric<T> InterpolationWeights(const float* setups, Base base, T x, T y) {
   const float* planes = setups + SetupLayout::kPlanes;
   T a[3], b[3], e[3];
   for (int i = 0; i < 3; ++i) {
-    const Vec4<T> plane = FetchVec4<T>(planes + 3 * i, base);  // its fourth number is not ours
+    const Vec4<T> plane = FetchVec4<T>(planes + 3 * i, base);  // the fourth component is not used
     a[i] = plane.x;
     b[i] = plane.y;
-    // Snapping and partly covered pixels put fragments a little outside their triangle; clamped, they read its edge.
+    // Snapping and partial coverage can place a fragment a little outside of its triangle. Clamping moves it to the
+    // edge.
     e[i] = Max((plane.z + a[i] * x) + b[i] * y, T(0.0f));
   }
   const T sum = (e[0] + e[1]) + e[2];
@@ -64,7 +66,7 @@ HWY_INLINE T Weigh(const T (&weights)[3], T v0, T v1, T v2) {
   return (weights[0] * v0 + weights[1] * v1) + weights[2] * v2;
 }
 
-// Four numbers of each vertex, `stride` apart, at setups[base + first].
+// Interpolates a four-component attribute whose vertices are `stride` floats apart, from setups[base + first] on.
 template <class T, class Base>
 HWY_INLINE Vec4<T> InterpolateVec4(const float* setups, Base base, const Barycentric<T>& w, int first, int stride) {
   const Vec4<T> p = FetchVec4<T>(setups + first, base), q = FetchVec4<T>(setups + first + stride, base),
@@ -103,8 +105,8 @@ HWY_INLINE void InterpolateFrom(const ShadeTask& task, Base base, T x, T y, Surf
   }
 }
 
-// The surface under fragment i of `task`, or those of all lanes from i on: what its material reads. The rest becomes
-// zero, but for texture coordinates, which stay as they are.
+// Interpolates the attributes that the material reads for fragment i of `task`, or for all lanes from i on. Others
+// become zero, except for texture coordinates, which are left unchanged.
 template <class T>
 HWY_INLINE void InterpolateSurface(const ShadeTask& task, std::size_t i, Surface<T>& s) {
   const T x = Load<T>(task.x + i), y = Load<T>(task.y + i);

@@ -1,4 +1,4 @@
-// A material's textures and factors under a packet of fragments.
+// Evaluates a material's textures and factors for a packet of fragments.
 
 #if defined(FACET_SHADE_MATERIAL_VIEW_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef FACET_SHADE_MATERIAL_VIEW_INL_H_
@@ -16,15 +16,16 @@ HWY_BEFORE_NAMESPACE();
 namespace facet {
 namespace HWY_NAMESPACE {
 
-// Reads textures at one packet of fragments. Those that are sampled alike share what it takes to find their texels.
+// Samples textures for one packet of fragments. Textures that are sampled alike share their taps (texel addresses and
+// weights).
 template <class T>
 class TextureReader {
  public:
-  // `surface` must outlive the reader, and stay as it is until the next ReadAhead().
+  // `surface` must outlive the reader, and must not change until the next ReadAhead().
   HWY_INLINE explicit TextureReader(const Surface<T>& surface) : s_(surface) {}
 
-  // Finds the texels of the material's first texture, and asks for the memory of all that stand at the same places. It
-  // takes long to arrive: call this for a new surface some work before it is shaded.
+  // Computes the taps of the material's first texture, and prefetches them in all textures that share them. Memory is
+  // slow, so call this for a new surface some time before it is shaded.
   HWY_INLINE void ReadAhead(const FrameMaterial& m) {
     made_for_ = dark_ = nullptr;
     summed_count_ = 0;
@@ -36,7 +37,8 @@ class TextureReader {
     }
   }
 
-  // Reads all textures of the material, those that stand at the same places together; not emission where there is none.
+  // Samples all textures of the material, those that share taps together. An emission texture that is empty there is
+  // not read.
   HWY_INLINE void ReadAll(const FrameMaterial& m) {
     TexturesOf left(m);
     dark_ = nullptr;
@@ -102,16 +104,16 @@ class TextureReader {
   const BoundTexture* made_for_ = nullptr;
   TextureTaps<T> taps_;
   int summed_count_ = 0;
-  const BoundTexture* summed_[kSlotCount] = {};  // what ReadAll() has read
+  const BoundTexture* summed_[kSlotCount] = {};  // the textures that ReadAll() has summed
   TexelSums<T> sums_[kSlotCount];
-  const BoundTexture* dark_ = nullptr;  // what ReadAll() has found black, without reading
+  const BoundTexture* dark_ = nullptr;  // the texture that ReadAll() found to be empty
 };
 
-// T is Float (lanes), float or double.
+// The material as shading models see it. T is Float (lanes), float or double.
 template <class T>
 class MaterialView {
  public:
-  // `ahead`: what reads the textures of its surface, which may have begun; null: nothing has.
+  // `ahead`: a reader that may have prefetched for its surface; null: there is none.
   HWY_INLINE explicit MaterialView(const FrameMaterial& material, TextureReader<T>* ahead = nullptr)
       : m_(material), ahead_(ahead) {}
 
@@ -119,8 +121,8 @@ class MaterialView {
   HWY_INLINE bool Lit() const { return m_.Has(kLit); }
   HWY_INLINE bool Emits() const { return m_.Has(kEmission); }
 
-  // Factor times texture times vertex colour, straight alpha. Linear. An opaque material's texture has no alpha: glTF
-  // ignores it, and it is not kept unless another material reads it.
+  // Factor times texture times vertex colour: linear, straight alpha. The texture's alpha is ignored if the material is
+  // opaque, as glTF demands; it may not even be stored.
   HWY_INLINE Vec4<T> BaseColor(const Surface<T>& s) const {
     TextureReader<T> own(s);
     TextureReader<T>& textures = ReaderOf(s, own);
@@ -135,7 +137,7 @@ class MaterialView {
     return alpha;
   }
 
-  // The shading normal, unit: the interpolated one, bent by the normal texture.
+  // The shading normal, unit: the interpolated normal, perturbed by the normal texture.
   HWY_INLINE Vec3<T> Normal(const Surface<T>& s) const {
     TextureReader<T> own(s);
     TextureReader<T>& textures = ReaderOf(s, own);
@@ -148,7 +150,7 @@ class MaterialView {
     return Emissive(textures);
   }
 
-  // All that the metallic-roughness model reads.
+  // All inputs of the metallic-roughness model.
   HWY_INLINE MaterialInputs<T> Inputs(const Surface<T>& s) const {
     TextureReader<T> own(s);
     TextureReader<T>& textures = ReaderOf(s, own);
@@ -190,7 +192,8 @@ class MaterialView {
     const T scale(m_.factors.normal_scale);
     const Vec3<T> n{(texel.x * T(2.0f) - T(1.0f)) * scale, (texel.y * T(2.0f) - T(1.0f)) * scale,
                     texel.z * T(2.0f) - T(1.0f)};
-    // As MikkTSpace demands, the bitangent is made here, from the interpolated vectors, which are not normalised.
+    // As MikkTSpace demands, the bitangent is computed per fragment from the interpolated vectors, without normalising
+    // them.
     const Vec3<T> tangent = Xyz(s.tangent), bitangent = Cross(s.interpolated_normal, tangent) * s.tangent.w;
     return NormalizeOr(tangent * n.x + bitangent * n.y + s.interpolated_normal * n.z, s.normal);
   }

@@ -1,24 +1,25 @@
-// The shading stage's kernels.
+// The kernels of the shading stage.
 #pragma once
 
 #include "shade/shade_task.h"
 
 namespace facet {
 
-// By the material's shading model. Fills all outputs of `task`.
+// Shades fragments by the material's shading model. Fills all outputs of `task`.
 void ShadeFragments(const ShadeTask& task);
 
-// Alpha alone, for the alpha test. Fills task.alpha.
+// Computes alpha only, for the alpha test. Fills task.alpha.
 void ShadeAlpha(const ShadeTask& task);
 
-// The environment behind a row of pixels: laid under those whose coverage is below 1. The direction from the eye
-// through pixel x (world axes, any length) is column[.][x] + row + whole; columns can be read kTaskPadding further.
+// Composites the environment under a row of pixels, where their alpha is below 1. The direction from the eye through
+// pixel x (world axes, of any length) is column[.][x] + row + whole; kTaskPadding entries beyond a column's end must be
+// readable.
 struct BackgroundTask {
   const double* column[3] = {};
   double row[3] = {}, whole[3] = {};
   int width = 0;
   const LightingData* lighting = nullptr;
-  float* pixels = nullptr;  // linear light times coverage, and coverage: four numbers each
+  float* pixels = nullptr;  // RGBA: linear light premultiplied by alpha
 };
 void ShadeBackground(const BackgroundTask& task);
 

@@ -9,7 +9,8 @@
 #include "shade/material_view-inl.h"
 #include "shade/shade_task.h"
 
-// Compiled for the baseline, as the functions that it calls are: on Arm they have attributes that must agree.
+// Compiled for the baseline instruction set, like the functions that it calls: on Arm their target attributes must
+// agree.
 HWY_BEFORE_NAMESPACE();
 namespace facet {
 namespace {

@@ -1,4 +1,4 @@
-// The shading stage without rounding.
+// Shading in double precision, to measure the rounding error of shading in float.
 #pragma once
 
 #include <memory>
@@ -7,14 +7,14 @@
 
 namespace facet {
 
-// The materials' models, shaded fragment by fragment in double: a RenderSettings::shader that draws what the same
-// algorithm draws without rounding in between. One source (interpolation, textures, closure, light), the same tables,
-// prefiltered maps, texels and constants as the lanes read; rounded are only what crosses into the stage, the triangle
-// setups and positions, and what leaves it, one float a channel. The difference of the two films is the rounding error
-// of shading; visibility, the alpha test, the background and blending are the lanes' in both.
+// A RenderSettings::shader that evaluates the materials' own models in double, one fragment at a time. It is compiled
+// from the same source as the lanes' kernels (interpolation, textures, closure, light), and reads the same tables,
+// prefiltered maps, texels and constants. Only its inputs (attribute setups and positions) and its outputs (one float
+// per channel) are rounded to float. The difference between the two films is the rounding error of shading; visibility,
+// the alpha test, the background and blending are computed in lanes for both.
 //
-// A fragment at the edge of a decision (a mip level, the number of anisotropic taps, which side of a horizon) may take
-// the other side: that is rounding too.
+// Where rounding decides a choice, such as the mip level, the number of anisotropic taps or the side of a horizon, the
+// two may differ by more; that is part of the rounding error.
 std::unique_ptr<const FragmentShader> MakeDoubleShader();
 
 }  // namespace facet

@@ -1,4 +1,4 @@
-// Runs a fragment shader functor over a batch of fragments, lanes at a time.
+// Runs a fragment shader functor over a batch of fragments, one packet of lanes at a time.
 
 #if defined(FACET_SHADE_SHADE_PACKETS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef FACET_SHADE_SHADE_PACKETS_INL_H_
@@ -15,13 +15,13 @@ HWY_BEFORE_NAMESPACE();
 namespace facet {
 namespace HWY_NAMESPACE {
 
-// The next packet's texels are asked for before this one is shaded, so that their memory arrives meanwhile.
-// Lanes beyond the batch's end repeat numbers that the caller's padding holds; what they give is not read.
+// The texels of the next packet are prefetched before the current one is shaded, which hides the latency of memory.
+// Lanes beyond the end of the batch shade the caller's padding; their results are not read.
 template <class Shader>
 HWY_INLINE void ShadePackets(const ShadeTask& task, const Shader& shader) {
   const LightingView<Float> lighting(*task.lighting);
   const std::size_t lanes = LaneCount();
-  Surface<Float> surfaces[2] = {};  // of this packet and the next; zero where no packet of the batch writes
+  Surface<Float> surfaces[2] = {};  // of this packet and the next; attributes that the material does not read stay zero
   TextureReader<Float> readers[2] = {TextureReader<Float>(surfaces[0]), TextureReader<Float>(surfaces[1])};
   const auto prepare = [&](std::size_t first, int place) HWY_ATTR {
     InterpolateSurface(task, first, surfaces[place]);

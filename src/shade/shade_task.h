@@ -1,4 +1,4 @@
-// A batch of fragments of one material, as it crosses into a shading kernel.
+// A batch of fragments of one material: the input and output of a shading kernel.
 #pragma once
 
 #include <cstddef>
@@ -10,8 +10,9 @@
 namespace facet {
 
 struct ShadeTask {
-  // Inputs, `count` of each, readable up to a multiple of 16: the fragment's triangle setup, and its place in pixels
-  // from the anchor (the pixel's centre, or the centroid of its covered samples where the triangle covers a part).
+  // Inputs, `count` of each, readable up to a multiple of 16: the index of the triangle's attribute setup, and the
+  // position in pixels from the anchor, which is the pixel's centre, or the centroid of the covered samples if the
+  // triangle does not cover all of them.
   const std::int32_t* setup = nullptr;  // index into `setups`
   const float* x = nullptr;
   const float* y = nullptr;
@@ -20,7 +21,7 @@ struct ShadeTask {
   const FrameMaterial* material = nullptr;
   const LightingData* lighting = nullptr;
   const void* parameters = nullptr;  // of a user's shader
-  // Orthographic cameras look from everywhere in this direction (world axes, unit, towards the eye).
+  // For orthographic cameras the direction towards the eye, which is the same everywhere (world axes, unit).
   bool orthographic = false;
   float view_direction[3] = {0, 0, 1};
   // Outputs, writable up to a multiple of 16: linear radiance, not multiplied by alpha, and alpha.
@@ -28,7 +29,7 @@ struct ShadeTask {
   float* green = nullptr;
   float* blue = nullptr;
   float* alpha = nullptr;
-  std::uint64_t* non_finite = nullptr;  // fragments that were replaced by black are added here
+  std::uint64_t* non_finite = nullptr;  // incremented for each fragment that is replaced by black
 };
 
 inline constexpr std::size_t kTaskPadding = 16;

@@ -17,7 +17,7 @@ HWY_BEFORE_NAMESPACE();
 namespace facet {
 namespace HWY_NAMESPACE {
 
-// --- A double for each of several triangles ----------------------------------------------------------------------------
+// --- Lanes of doubles, one for each of several triangles --------------------------------------------------------------
 
 using DoubleTag = hn::ScalableTag<double>;
 using HalfTag = hn::Rebind<float, DoubleTag>;
@@ -49,11 +49,11 @@ HWY_INLINE bool All(DoubleMask a) { return hn::AllTrue(DoubleTag(), a.raw); }
 HWY_INLINE Double Abs(Double a) { return hn::Abs(a.raw); }
 HWY_INLINE Double Sqrt(Double a) { return hn::Sqrt(a.raw); }
 HWY_INLINE Double Select(DoubleMask m, Double a, Double b) { return hn::IfThenElse(m.raw, a.raw, b.raw); }
-HWY_INLINE Double Max(Double a, Double b) { return Select(b < a, a, b); }  // as of Float: a NaN in a gives b
+HWY_INLINE Double Max(Double a, Double b) { return Select(b < a, a, b); }  // like Float's: if a is NaN, returns b
 HWY_INLINE Double Load(const double* p) { return hn::LoadU(DoubleTag(), p); }
 HWY_INLINE Double LoadPromoted(const float* p) { return hn::PromoteTo(DoubleTag(), hn::LoadU(HalfTag(), p)); }
 HWY_INLINE void StoreRounded(Double a, float* p) {
-#if HWY_TARGET == HWY_SCALAR  // Highway's gives the largest float for what is larger
+#if HWY_TARGET == HWY_SCALAR  // Highway's demotion would clamp to the largest float
   *p = RoundToFloat(hn::GetLane(a.raw));
 #else
   hn::StoreU(hn::DemoteTo(HalfTag(), a.raw), HalfTag(), p);
@@ -62,12 +62,12 @@ HWY_INLINE void StoreRounded(Double a, float* p) {
 
 using Point = Vec3<Double>;
 
-// --- What a group's triangles read and get -----------------------------------------------------------------------------
+// --- Inputs and outputs of a group of triangles ------------------------------------------------------------------------
 
-// A number of each triangle of a group.
+// One component of each triangle of a group.
 using Numbers = float[kMaxDoubles];
 
-// Three numbers of each corner.
+// A three-component attribute of all vertices.
 struct Corners {
   alignas(64) Numbers numbers[9];
   HWY_INLINE void Set(std::size_t lane, int corner, const float* xyz) {
@@ -79,7 +79,7 @@ struct Corners {
   }
 };
 
-// The numbers of a setup up to the tangents.
+// The setups of a group up to the tangents, one component after the other, with triangles in lanes.
 struct SetupLanes {
   static constexpr int kCount = (SetupLayout::kColors + 3) / 4 * 4;
   alignas(64) Numbers numbers[kCount] = {};
@@ -87,7 +87,8 @@ struct SetupLanes {
   HWY_INLINE void Put(int place, Double value) { StoreRounded(value, numbers[place]); }
   HWY_INLINE void Put(int place, const Point& p) { Put(place, p.x), Put(place + 1, p.y), Put(place + 2, p.z); }
 
-  // Moves the first `count` numbers of `lanes` triangles to their places, by fours: some beyond may come along.
+  // Transposes the first `count` components of `lanes` triangles into their setups. Writes four at a time, so up to
+  // three more may be written.
   HWY_INLINE void WriteTo(float* setups, std::size_t stride, std::size_t lanes, int count) const {
     alignas(64) float fours[4 * kMaxDoubles];
     const HalfTag half;
@@ -105,7 +106,7 @@ HWY_INLINE Double HomogeneousRow(const glm::dvec4& row, const Point& p) {
   return (Double(row.x) * p.x + Double(row.y) * p.y) + (Double(row.z) * p.z + Double(row.w));
 }
 
-// `w`: 1 for places, 0 for directions.
+// `w`: 1 for positions, 0 for directions.
 HWY_INLINE Point Transform(const glm::dmat3x4& rows, const Point& p, double w) {
   const auto row = [&](int i) HWY_ATTR {
     const glm::dvec4& r = rows[i];
@@ -121,7 +122,7 @@ HWY_INLINE Point Transform(const glm::dmat3& m, const Point& p) {
   return {row(0), row(1), row(2)};
 }
 
-// v / |v|, or what `fallback` gives; it is asked only where it is needed.
+// v / |v|, or fallback() where v has no direction. It is evaluated only if some lane needs it.
 template <class Fallback>
 HWY_INLINE Point UnitOr(const Point& v, const Fallback& fallback) {
   const Double length = Sqrt(Dot(v, v));
@@ -130,8 +131,9 @@ HWY_INLINE Point UnitOr(const Point& v, const Fallback& fallback) {
   return All(good) ? unit : Select(good, unit, fallback());
 }
 
-// Rows of the inverse of the matrix with columns h[0], h[1], h[2], times any positive number (weights are divided by
-// their sum). A degenerate triangle takes everything from its first vertex.
+// Computes the weights' planes: the rows of the inverse of the matrix with columns h[0], h[1], h[2], up to a positive
+// factor, which cancels as weights are divided by their sum. A degenerate triangle gets all attributes from its first
+// vertex.
 HWY_INLINE void PutPlanes(const Point (&h)[3], RecordKind kind, SetupLanes& out) {
   Point row[3] = {Cross(h[1], h[2]), Cross(h[2], h[0]), Cross(h[0], h[1])};
   const Double determinant = Dot(row[0], h[0]), zero(0.0);
@@ -139,11 +141,11 @@ HWY_INLINE void PutPlanes(const Point (&h)[3], RecordKind kind, SetupLanes& out)
   Double largest = zero;
   for (Point& r : row) {
     r = r * sign;
-    // Weights within a tile's reach decide the scale.
+    // The scale is chosen so that weights are at most about 1 within the 64 pixels that a tile spans.
     const Double reach(64.0);
     largest = Max(Max(Max(largest, Abs(r.x) * reach), Abs(r.y) * reach), Abs(r.z));
   }
-  if (kind == RecordKind::Line) row[2] = {zero, zero, zero};  // the third vertex stands for the line's width
+  if (kind == RecordKind::Line) row[2] = {zero, zero, zero};  // the third vertex only gives the line's width
   const DoubleMask good = (zero < largest) & (largest < Double(HUGE_VAL)) & (zero < Abs(determinant));
   for (int i = 0; i < 3; ++i) {
     const Point plane = row[i] / largest;
@@ -154,14 +156,14 @@ HWY_INLINE void PutPlanes(const Point (&h)[3], RecordKind kind, SetupLanes& out)
 
 // --- Groups ------------------------------------------------------------------------------------------------------------
 
-// The triangles of one drawable and kind that are set up side by side. Lanes that have none keep old numbers, and what
-// becomes of those is not read.
+// Triangles of one drawable and kind that are set up together, one per lane. Unused lanes have old values, whose
+// results are not read.
 struct Group {
   const FrameDrawable* drawable;
   const Primitive* geometry;
   RecordKind kind;
   Corners positions, normals, tangents;
-  alignas(64) double sides[kMaxDoubles];  // -1 for those seen from behind
+  alignas(64) double sides[kMaxDoubles];  // -1 for back faces, otherwise 1
 };
 
 constexpr float kNoTangent[3] = {1.0f, 0.0f, 0.0f};
@@ -179,7 +181,7 @@ void SetUpGroup(const SetupTask& task, const Group& group, SetupLanes& out) {
             HomogeneousRow(drawable.screen_from_mesh[1], p) - Double(task.anchor_y) * w, w};
   }
   if (group.kind == RecordKind::Line) {
-    const Point line = Cross(h[0], h[1]);  // its first two numbers point across the line on the screen
+    const Point line = Cross(h[0], h[1]);  // its x and y point across the line on the screen
     h[2] = {line.x, line.y, Double(0.0)};
   }
   PutPlanes(h, group.kind, out);
@@ -209,12 +211,12 @@ void SetUpGroup(const SetupTask& task, const Group& group, SetupLanes& out) {
       const Point turned = Transform(drawable.eye_relative_from_mesh, group.tangents.Get(i), 0.0);
       const Point x_axis{Double(1.0), Double(0.0), Double(0.0)};
       out.Put(SetupLayout::kTangents + 4 * i, UnitOr(turned, [&]() HWY_ATTR { return x_axis; }) * side);
-      out.Put(SetupLayout::kTangents + 4 * i + 3, mirrored_side);  // times the handedness, which is the triangle's
+      out.Put(SetupLayout::kTangents + 4 * i + 3, mirrored_side);  // CopyAttributes() multiplies by the handedness
     }
   }
 }
 
-// What is only copied.
+// Copies the attributes that need no arithmetic.
 void CopyAttributes(const FrameMaterial& material, const Primitive& geometry, const Vertices& vertex, float* setup) {
   if (material.Has(kTangentSpaceBits) && !geometry.tangents.empty()) {
     float* handedness = setup + SetupLayout::kTangents + 3;
@@ -238,9 +240,9 @@ void CopyAttributes(const FrameMaterial& material, const Primitive& geometry, co
 }
 
 void SetUpTrianglesKernel(const SetupTask& task) {
-  // Memory is asked for ahead: first the indices, then, once they are there, the vertices. A frame of small triangles
-  // waits for little else.
-  constexpr std::size_t kAhead = 16;  // triangles: twice the most lanes
+  // Indices are prefetched ahead, and, when they have arrived, the vertices: with small triangles, memory latency would
+  // dominate otherwise.
+  constexpr std::size_t kAhead = 16;  // triangles; at least twice the number of lanes
   static_assert(kAhead >= 2 * kMaxDoubles);
   const FrameMaterial& material = *task.material;
   const bool lit = material.Has(kLit), tangent_space = material.Has(kTangentSpaceBits);
@@ -251,7 +253,7 @@ void SetUpTrianglesKernel(const SetupTask& task) {
   const auto ask_for_indices = [&](std::size_t i) HWY_ATTR {
     if (i >= task.count) return;
     const auto& indices = task.attributes[task.records[i]->drawable]->indices;
-    const std::size_t first = std::size_t(task.records[i]->primitive) * 3;  // of a strip it is elsewhere: no harm
+    const std::size_t first = std::size_t(task.records[i]->primitive) * 3;  // wrong for strips, harmlessly
     if (first + 2 < indices.size()) __builtin_prefetch(&indices[first]);
   };
   const auto ask_for_vertices = [&](std::size_t i) HWY_ATTR {

@@ -77,10 +77,10 @@ TextureBuilder::TextureBuilder(const Image& form, int height, TextureRole role, 
   }
 }
 
-// Which channels of the picture are kept, and where.
+// Decides which channels of the image are stored, and as which component of a texel.
 void TextureBuilder::PlaceChannels(int channels) {
   const bool grey = channels_ < 3, has_alpha = channels_ % 2 == 0;
-  int place_of_channel[4] = {-1, -1, -1, -1};  // of the picture
+  int place_of_channel[4] = {-1, -1, -1, -1};  // by channel of the image
   for (int c = 0; c < 4; ++c) {
     if ((channels >> c & 1) == 0 || (c == 3 && !has_alpha)) continue;
     const int from = c == 3 ? channels_ - 1 : grey ? 0 : c;
@@ -90,7 +90,7 @@ void TextureBuilder::PlaceChannels(int channels) {
     }
     texture_.place_of[c] = place_of_channel[from];
   }
-  if (texture_.stored == 0) channel_of_[texture_.stored++] = 0;  // alpha alone, of a picture without
+  if (texture_.stored == 0) channel_of_[texture_.stored++] = 0;  // only alpha is read, and there is none
   const int size = texture_.wide ? 2 : 1;
   for (int i = 0; i < 16; ++i) {
     const int place = texture_.place_of[i / 4], texel = i / 2 % 2, byte = i % 2;
@@ -123,7 +123,7 @@ void TextureBuilder::Add(const Image& rows) {
   }
 }
 
-// The numbers of a picture's row that are kept, in linear light, channel by channel.
+// Writes the stored channels of an image's row, in linear light, to the planes of level 0.
 void TextureBuilder::Expand(const std::uint8_t* row) {
   ExpandRowTask task{row, channels_, texture_.stored, {}, {}, {}, width_};
   for (int k = 0; k < texture_.stored; ++k) {
@@ -150,8 +150,8 @@ void TextureBuilder::Expand(const Number* row) {
   }
 }
 
-// Stores a row whose planes are filled, and makes the row of the next level that it completes: of two rows, three where
-// a height is odd.
+// Stores a row whose planes are filled. If it is the last of the two rows (three where the height is odd) that a row of
+// the next level is made from, that row is made as well, and so on down to the smallest level.
 void TextureBuilder::FinishRow(int level, int y) {
   StoreRowTask store{{},
                      texture_.stored,
@@ -186,17 +186,18 @@ void TextureBuilder::FinishRow(int level, int y) {
   FinishRow(level + 1, i);
 }
 
-// A texel of a level is 0 only where all that it is the mean of is.
+// Chooses the level whose texels are the cells. A texel is 0 only if all texels of level 0 that it is the mean of are
+// 0, so a cell of 0 is a black area of the texture.
 void TextureBuilder::PlaceCells() {
   constexpr int kMost = DarkCells::kMaxSide;
   const auto fits = [&](int l) { return texture_.level_width[l] <= kMost && texture_.level_height[l] <= kMost; };
   for (cell_level_ = 0; cell_level_ < texture_.levels && !fits(cell_level_);) ++cell_level_;
   if (cell_level_ == texture_.levels) return;
   const int width = texture_.level_width[cell_level_], height = texture_.level_height[cell_level_];
-  // Less than a cell, so that no rounding of a place within it matters.
+  // A little less than one cell, so that the rounding of texture coordinates cannot reach beyond a neighbouring cell.
   const float reach = 0.9f * std::min(static_cast<float>(texture_.level_width[0]) / static_cast<float>(width),
                                       static_cast<float>(texture_.level_height[0]) / static_cast<float>(height));
-  if (reach < 3.0f) return;  // samples reach farther
+  if (reach < 3.0f) return;  // samples read farther than that, so no texel could be skipped
   texture_.dark = {width, height, reach, std::vector<std::int32_t>(std::size_t(width) * std::size_t(height), 0)};
 }
 

@@ -1,5 +1,5 @@
-// A texture from the rows of a picture as they are decoded: neither the picture nor its levels are ever whole in memory
-// but as texels.
+// Builds a texture from the rows of an image as they are decoded. Only the finished texels of all levels are kept: the
+// decoded image itself, and the levels in float, are never in memory as a whole.
 #pragma once
 
 #include <vector>
@@ -10,14 +10,16 @@ namespace facet {
 
 class TextureBuilder {
  public:
-  // `form` is some of the picture's rows, or all; `height` is the whole picture's. The rest as BuildTexture.
+  // `form`: some or all rows of the image, of which only the format and the width are used. `height`: of the whole
+  // image. The other parameters are those of BuildTexture().
   TextureBuilder(const Image& form, int height, TextureRole role, bool mips, TexelBits bits, int channels,
                  bool emission = false);
 
-  // The next rows, top to bottom. Throws Error(InvalidInput) where they are too many, or not of the picture's form.
+  // Adds the next rows, from top to bottom. Throws Error(InvalidInput) for more rows than the image has, and for rows
+  // of another format or width.
   void Add(const Image& rows);
 
-  // The texture. Throws Error(InvalidInput) where rows are missing.
+  // Returns the texture. Throws Error(InvalidInput) if rows are missing.
   TextureData Finish();
 
  private:
@@ -31,16 +33,16 @@ class TextureBuilder {
   void PlaceCells();
   void FindLitCells(int y);
 
-  int width_, channels_;     // of the picture
-  int channel_of_[4] = {};   // of the picture, for each number of a texel
+  int width_, channels_;     // of the image
+  int channel_of_[4] = {};   // the image's channel that each component of a texel is made from
   ChannelType type_;
   TextureData texture_;
   int next_row_ = 0;
-  bool leave_black_ = false;  // texels that are black are not written: their memory is zero
-  int cell_level_ = -1;       // whose texels are TextureData::dark's cells
-  bool gamma_ = false;                    // codes of colour are not linear
-  std::vector<float> linear_, color_;     // of each code; empty for floats
-  std::vector<std::vector<float>> rows_;  // of each level its last three rows, channel by channel
+  bool leave_black_ = false;  // black texels are not written: fresh memory is zero already, and stays unallocated
+  int cell_level_ = -1;       // the level whose texels are the cells of EmptyCells
+  bool gamma_ = false;                    // colour components are encoded with the sRGB curve
+  std::vector<float> linear_, color_;     // the linear value of each code, without and with sRGB; empty for floats
+  std::vector<std::vector<float>> rows_;  // for each level its last three rows, one plane after the other
 };
 
 }  // namespace facet

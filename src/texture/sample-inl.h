@@ -1,4 +1,4 @@
-// Reading textures in linear light: wrapping, bilinear, trilinear, anisotropic filtering. T: Float, float or double.
+// Samples textures in linear light: wrap modes, bilinear to anisotropic filters. T: Float (lanes), float, double.
 
 #if defined(FACET_TEXTURE_SAMPLE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef FACET_TEXTURE_SAMPLE_INL_H_
@@ -19,15 +19,15 @@ HWY_BEFORE_NAMESPACE();
 namespace facet {
 namespace HWY_NAMESPACE {
 
-// The texels i and i + 1 on one axis, after wrapping, and how far the position lies towards the second: at a clamped or
-// mirrored edge, which repeats its texel, not at all.
+// The two neighbouring texels that linear filtering reads on one axis, after wrapping, and the weight of the second. At
+// a clamped or mirrored edge, where the texel beyond the edge repeats the one at it, that weight is 0.
 template <class T>
 struct AxisTaps {
   IntOf<T> first, second;
   T fraction;
 };
 
-// A coordinate as the picture repeats: in [0, 1].
+// A texture coordinate after wrapping, in [0, 1].
 template <class T>
 HWY_INLINE T Wrapped(Wrap wrap, T position) {
   position = Select(IsFinite(position), position, T(0.0f));
@@ -41,7 +41,7 @@ HWY_INLINE T Wrapped(Wrap wrap, T position) {
   }
 }
 
-// `position` in units of the texture; `size` in texels; `linear`: lanes that interpolate.
+// `position`: texture coordinate, 1 being the whole texture; `size`: in texels; `linear`: lanes with linear filtering.
 template <class T>
 HWY_INLINE AxisTaps<T> MakeTaps(Wrap wrap, T position, IntOf<T> size, MaskOf<T> linear) {
   const T texel = Wrapped(wrap, position) * FromInt<T>(size) - Select(linear, T(0.5f), T(0.0f));
@@ -64,12 +64,11 @@ HWY_INLINE AxisTaps<T> MakeTaps(Wrap wrap, T position, IntOf<T> size, MaskOf<T> 
   return taps;
 }
 
-// Lanes and float filter in integers: 8 or 16 bits of a texel times a weight of 14 bits, summed without rounding, which
-// processors do four times as fast as the same in floats; GPUs' weights have 8 bits. Other T, such as double, have
-// weights without rounding.
+// Float (lanes) and float filter in integers: components of 8 or 16 bits times weights of 14 bits, summed exactly. This
+// is four times as fast as in floats; GPUs' weights have 8 bits. Other T, such as double, have unrounded weights.
 template <class T>
 inline constexpr bool kWholeWeights = std::is_same_v<T, Float> || std::is_same_v<T, float>;
-// What all weights of a sample sum to.
+// The sum of all weights of a sample.
 template <class T>
 inline constexpr float kWeightSum = kWholeWeights<T> ? 16384.0f : 1.0f;
 template <class T>
@@ -81,12 +80,12 @@ HWY_INLINE T RoundWeight(T weight) {
   }
 }
 
-// The weights of two neighbouring texels: whole ones as 16-bit numbers of one word, the left one low.
+// The weights of two neighbouring texels: integers are packed into one 32-bit word per lane, the left one low.
 template <class T, bool kWhole = kWholeWeights<T>>
 struct WeightPair {
   IndexList<T> of_lane;
   HWY_INLINE void Set(T left, T right) { of_lane = TruncateToInt(left) | ShiftLeft<16>(TruncateToInt(right)); }
-  // Where there is one lane.
+  // For T with a single lane.
   HWY_INLINE std::int32_t Left() const { return of_lane.of_lane[0] & 0xFFFF; }
   HWY_INLINE std::int32_t Right() const { return of_lane.of_lane[0] >> 16; }
 };
@@ -98,14 +97,14 @@ struct WeightPair<T, false> {
   HWY_INLINE T Right() const { return right; }
 };
 
-// Where the texels of one bilinear footprint stand, and how much each counts.
+// Texel addresses and weights of one bilinear tap.
 template <class T>
 struct BilinearTap {
-  IndexList<T> top, bottom;  // numbers of the left texels in TextureData; the right ones follow them
+  IndexList<T> top, bottom;  // indices in TextureData of the two left texels; each right one follows its left one
   WeightPair<T> top_weights, bottom_weights;
 };
 
-// The mip level of each lane.
+// Where the mip level of each lane lies in TextureData: in texels.
 template <class T>
 struct LevelPlace {
   IntOf<T> width, height, offset, pitch;
@@ -117,7 +116,7 @@ HWY_INLINE LevelPlace<T> PlaceOfLevel(const TextureData& data, IntOf<T> level) {
           FetchOf16(data.level_pitch, level)};
 }
 
-// `share`: how much it counts in all, of kWeightSum; a RoundWeight(). Its texels' weights sum to that, without error.
+// `share`: the tap's part of kWeightSum, a result of RoundWeight(). The weights of its four texels sum to it exactly.
 template <class T>
 HWY_INLINE void MakeBilinearTap(const Sampler& sampler, Vec2<T> uv, const LevelPlace<T>& level, MaskOf<T> linear,
                                 T share, BilinearTap<T>& tap) {
@@ -136,18 +135,18 @@ HWY_INLINE void MakeBilinearTap(const Sampler& sampler, Vec2<T> uv, const LevelP
 // singular values. (GPUs approximate them by the lengths of the two columns, which blurs skewed footprints.)
 template <class T>
 struct Footprint {
-  T width;        // that one tap has to cover, texels of level 0
-  T lod;          // log2 of it
-  T taps;         // how many taps go along the major axis, 1 to max_anisotropy
-  Vec2<T> major;  // the major axis in uv, whole length
-  T length;       // of it, texels of level 0
+  T width;        // the diameter that one tap has to cover, in texels of level 0
+  T lod;          // log2(width)
+  T taps;         // the number of taps along the major axis, 1 to max_anisotropy
+  Vec2<T> major;  // the major axis in uv, at its whole length
+  T length;       // the length of the major axis in texels of level 0
 };
 
 template <class T>
 HWY_INLINE Footprint<T> MakeFootprint(const BoundTexture& texture, Vec2<T> duv_dx, Vec2<T> duv_dy) {
   const T width(static_cast<float>(texture.data->level_width[0])),
       height(static_cast<float>(texture.data->level_height[0]));
-  // Beyond every texture's last level, and below what overflows when it is squared twice; a NaN becomes the lower one.
+  // A bound beyond every texture's last level that does not overflow when squared twice; NaN becomes the lower bound.
   const T limit(1e9f);
   const auto bounded = [&](T texels) HWY_ATTR { return Clamp(texels, -limit, limit); };
   const T ux = bounded(duv_dx.x * width), vx = bounded(duv_dx.y * height), uy = bounded(duv_dy.x * width),
@@ -160,43 +159,43 @@ HWY_INLINE Footprint<T> MakeFootprint(const BoundTexture& texture, Vec2<T> duv_d
   const T major = Sqrt(Max(major_squared, tiny));
   const T minor = determinant / major;
 
-  // Several taps are for smooth filters: what asks for nearest texels, or has no smaller levels, gets one, and that one
-  // covers the whole length.
+  // Only filters that interpolate get several taps. A sampler that asks for the nearest texel, or for no mip levels,
+  // gets one, which covers the whole length.
   const bool several = texture.sampler.minification == Filter::Linear && texture.sampler.mip != MipFilter::None;
   Footprint<T> f{};
-  // Fewer taps than the ratio of the axes would blur along the minor one; more would waste.
+  // As many taps as the major axis is longer than the minor one: with fewer, each would blur along the minor axis.
   const T ratio = major / Max(minor, T(1e-15f));
   const T needed = Max(-Floor(-ratio), T(1.0f));
   f.taps = Min(needed, T(several ? texture.max_anisotropy : 1.0f));
-  f.taps = Select(major > T(1.0f), f.taps, T(1.0f));  // magnified: one tap sees it all
+  f.taps = Select(major > T(1.0f), f.taps, T(1.0f));  // magnified: one tap is enough
   f.width = Max(major / f.taps, Max(minor, T(1e-15f)));
   f.lod = Log2(f.width);
   f.length = major;
-  // The eigenvector of the larger singular value: of the two ways to write it, the one that does not cancel.
+  // The singular vector of the larger singular value; of the two ways to write it, the one without cancellation.
   const Vec2<T> p{major_squared - c, b}, q{b, major_squared - a};
   const auto use_p = a >= c;
   const Vec2<T> axis{Select(use_p, p.x, q.x), Select(use_p, p.y, q.y)};
   const T length = Sqrt(Max(Dot(axis, axis), tiny));
   const T scale = major / length;
-  const MaskOf<T> stretched = f.taps > T(1.0f);  // selected, not multiplied: axes that overflowed must not become NaN
+  const MaskOf<T> stretched = f.taps > T(1.0f);  // a select, since infinity * 0 would be NaN
   f.major = {Select(stretched, axis.x * scale / width, T(0.0f)), Select(stretched, axis.y * scale / height, T(0.0f))};
   return f;
 }
 
-// All places that a sample reads: what textures of one size, sampled alike, have in common.
+// The taps (texel addresses and weights) of a sample. Textures of one size that are sampled alike share them.
 template <class T>
 struct TextureTaps {
-  static constexpr int kMax = 16;  // along the major axis
-  int count;                       // of `taps`, of the lane that has most
-  IndexList<T> of_lane;            // how many of them each lane has
-  // Those along the major axis, of the finer level; where two levels are read, each is followed by that of the coarser.
+  static constexpr int kMax = 16;  // taps along the major axis, in one level
+  int count;                       // entries of `taps` that are used by the lane that has most of them
+  IndexList<T> of_lane;            // how many each lane uses
+  // The taps in the finer level; with two levels, each is followed by the tap at its position in the coarser level.
   bool two_levels;
   BilinearTap<T> taps[2 * kMax];
-  Vec2<T> uv;  // their middle
-  T reach;     // how far from it they read, at most, texels of level 0
+  Vec2<T> uv;  // the centre of the taps
+  T reach;     // no texel that is read lies farther than this from the centre, in texels of level 0
 };
 
-// Whether two textures are sampled alike: at the same texture coordinates the same taps serve both.
+// Whether two textures are sampled alike, so that the same taps serve both.
 HWY_INLINE bool HaveSameTaps(const BoundTexture& a, const BoundTexture& b) {
   const TextureData &p = *a.data, &q = *b.data;
   const Sampler &f = a.sampler, &g = b.sampler;
@@ -208,7 +207,7 @@ HWY_INLINE bool HaveSameTaps(const BoundTexture& a, const BoundTexture& b) {
   return same;
 }
 
-// Texel addresses and weights of a sample of `texture`, from its coordinates and their derivatives over one pixel.
+// Computes the taps of a sample of `texture` from its coordinates and their derivatives over one pixel.
 template <class T>
 HWY_NOINLINE void MakeTextureTaps(const BoundTexture& texture, const Vec2<T>& uv_in, const Vec2<T>& duv_dx_in,
                                   const Vec2<T>& duv_dy_in, TextureTaps<T>& out) {
@@ -225,7 +224,7 @@ HWY_NOINLINE void MakeTextureTaps(const BoundTexture& texture, const Vec2<T>& uv
   out.uv = uv;
   const T rounding = Max(Abs(uv.x), Abs(uv.y)) * T(2e-7f * float(data.level_width[0] + data.level_height[0]));
   const auto read_level_0 = [&](MaskOf<T> linear) HWY_ATTR {
-    out.reach = T(1.5f) + rounding;  // a tap's texels lie within one texel and a half
+    out.reach = T(1.5f) + rounding;  // a bilinear tap reads within 1.5 texels
     out.count = 1;
     out.of_lane = IntOf<T>(1);
     out.two_levels = false;
@@ -242,7 +241,7 @@ HWY_NOINLINE void MakeTextureTaps(const BoundTexture& texture, const Vec2<T>& uv
   const MaskOf<T> linear = (magnified & (sampler.magnification == Filter::Linear ? yes : no)) |
                            (minified & (sampler.minification == Filter::Linear ? yes : no));
   if (sampler.mip == MipFilter::None) return read_level_0(linear);
-  // The coarser level's texels are up to twice as wide as a tap.
+  // Half the major axis and what the last tap reads: texels of the coarser level are up to twice as wide as a tap.
   out.reach = footprint.length * T(0.5f) + Max(footprint.width, T(1.0f)) * T(3.0f) + rounding;
   const bool nearest_level = sampler.mip == MipFilter::Nearest;
   const T base = Floor(nearest_level ? lod + T(0.5f) : lod);
@@ -252,7 +251,7 @@ HWY_NOINLINE void MakeTextureTaps(const BoundTexture& texture, const Vec2<T>& uv
   const LevelPlace<T> coarse = PlaceOfLevel<T>(data, TruncateToInt(Min(base + T(1.0f), max_level)));
   const T of_coarse = RoundWeight(all * blend), of_fine = all - of_coarse;
   const T inverse_count = T(1.0f) / footprint.taps;
-  // Of the first i taps; each tap's share is the difference of two, so that they sum to the whole.
+  // The share of the first i taps. A tap's share is the difference of two of these: the rounded shares sum exactly.
   const auto share_before = [&](T whole, T i) HWY_ATTR { return RoundWeight(whole * Min(i * inverse_count, T(1.0f))); };
   const int levels = out.two_levels ? 2 : 1;
   T fine_before(0.0f), coarse_before(0.0f);
@@ -274,7 +273,7 @@ HWY_NOINLINE void MakeTextureTaps(const BoundTexture& texture, const Vec2<T>& uv
   out.of_lane = TruncateToInt(footprint.taps) * IntOf<T>(levels);
 }
 
-// Whether what would be read at `taps` is black, for each lane.
+// Whether all texels that would be read at `taps` are black, in all lanes.
 template <class T>
 HWY_INLINE bool IsDark(const BoundTexture& texture, const TextureTaps<T>& taps) {
   const DarkCells& dark = texture.data->dark;
@@ -288,7 +287,7 @@ HWY_INLINE bool IsDark(const BoundTexture& texture, const TextureTaps<T>& taps) 
   return All(in_dark & MaskOf<T>(taps.reach <= T(dark.reach)));
 }
 
-// Asks for the memory of texels that will be read soon, for one lane in `kStep`. (Inlined, or GCC drops it.)
+// Prefetches texels that will be read soon, for one lane in `kStep`. (Inlined, as GCC drops the call otherwise.)
 template <int kStep, class T>
 HWY_INLINE void PrefetchRow(const TextureData& data, const IndexList<T>& texel) {
   const std::ptrdiff_t texel_bytes = data.TexelBytes();
@@ -297,8 +296,8 @@ HWY_INLINE void PrefetchRow(const TextureData& data, const IndexList<T>& texel) 
   }
 }
 
-// Of most that will be read at `taps`. Neighbouring lanes read neighbouring texels: every second lane, of the coarser
-// level every fourth, names nearly as many cache lines as all, and what is a lane's lower row is often another's upper.
+// Prefetches most texels that will be read at `taps`. Neighbouring lanes read neighbouring texels: every second lane
+// (fourth, in the coarser level) touches nearly all cache lines, and one lane's lower row is often another's upper row.
 template <class T>
 HWY_INLINE void PrefetchTexels(const TextureData& data, const TextureTaps<T>& taps) {
   for (int i = 0; i < taps.count;) {
@@ -307,7 +306,7 @@ HWY_INLINE void PrefetchTexels(const TextureData& data, const TextureTaps<T>& ta
   }
 }
 
-// The numbers of R, G, B and A of two neighbouring texels at p, as `pair_bytes` places them.
+// The components R, G, B and A of two neighbouring texels at `p`, gathered by TextureData::pair_bytes one at a time.
 struct ScalarPairs {
   const std::uint8_t* p;
   const TextureData& data;
@@ -331,18 +330,18 @@ template <class T>
 inline constexpr bool kInLanes = std::is_same_v<T, Float>;
 #endif
 
-// Sums of one texture's numbers times weights.
+// For each channel of one texture the sum of its components times their weights.
 template <class T, bool kLanes = kInLanes<T>>
 struct TexelSums {
   std::conditional_t<kWholeWeights<T>, std::int32_t, T> of_channel[4];
 };
 template <class T>
 struct TexelSums<T, true> {
-  IndexList<T> rows[4];  // R, G, B and A of a lane side by side; in row j those of lanes j, j + 4 and so on
+  IndexList<T> rows[4];  // R, G, B and A of a lane are adjacent; row j holds lanes j, j + 4 and so on
 };
 
 #if HWY_TARGET != HWY_SCALAR
-// Selects number j of each block of 16 bytes, four times.
+// Byte shuffles: the j-th broadcasts 32-bit word j of each 16-byte block to the whole block.
 struct NumberOfBlocks {
   alignas(16) std::uint8_t bytes[4][16];
   constexpr NumberOfBlocks() : bytes{} {
@@ -351,8 +350,8 @@ struct NumberOfBlocks {
 };
 inline constexpr NumberOfBlocks kNumberOfBlocks;
 
-// In lanes a pair of texels is a block of 16 bytes, R, G, B and A side by side; a vector holds those of every fourth
-// lane, and one instruction serves them all. Two blocks a vector: four are no faster where 512 bits are done in halves.
+// The two texels of a row are one 16-byte block of 16-bit integers (R, R, G, G, B, B, A, A): one multiply-add of pairs
+// weighs both. A vector holds two such blocks, of every fourth lane; four are no faster where 512 bits run in halves.
 template <int kCount, bool kSparse, class T>
 HWY_INLINE void SumTexelsInLanes(const TextureData* const* textures, const TextureTaps<T>& taps, TexelSums<T>* sums) {
   using Tag = hn::CappedTag<std::int32_t, 8>;
@@ -360,7 +359,7 @@ HWY_INLINE void SumTexelsInLanes(const TextureData* const* textures, const Textu
   const hn::Repartition<std::uint8_t, Tag> d8;
   const hn::Repartition<std::int16_t, Tag> d16;
   constexpr int kLanes = IndexList<T>::kLanes, kVector = hn::MaxLanes(Tag());
-  // Where the pairs of the upper and the lower row stand, in bytes: 2^27 texels of 8, and their levels, are below 2^31.
+  // Byte offsets of the texel pairs in the upper and lower row; a texture of 2^27 texels of 8 bytes stays below 2^31.
   IndexList<T> at[2 * TextureTaps<T>::kMax][kCount][2];
   for (int i = 0; i < taps.count; ++i) {
     const Int top = LoadInt(taps.taps[i].top.of_lane), bottom = LoadInt(taps.taps[i].bottom.of_lane);
@@ -372,14 +371,14 @@ HWY_INLINE void SumTexelsInLanes(const TextureData* const* textures, const Textu
   }
   for (int first = 0; first < kLanes; first += kVector) {
     for (int j = 0; j < 4; ++j) {
-      hn::Vec<Tag> sum[kCount], more[kCount];  // `more`: Arm's sums of every second product
+      hn::Vec<Tag> sum[kCount], more[kCount];  // `more`: on Arm, the sums of every second product
       for (int k = 0; k < kCount; ++k) sum[k] = more[k] = hn::Zero(d32);
       const auto number = hn::LoadDup128(d8, kNumberOfBlocks.bytes[j]);
       const auto weights = [&](const WeightPair<T>& of) HWY_ATTR {
         const auto all = hn::BitCast(d8, hn::Load(d32, of.of_lane.of_lane + first));
         return hn::BitCast(d16, hn::TableLookupBytes(all, number));
       };
-      int count = 0;  // of the lane that has most: further taps of the others weigh nothing
+      int count = 0;  // of the lane that has most taps; the surplus taps of the others have weight 0
       for (int lane = j; lane < kVector; lane += 4) count = std::max(count, taps.of_lane.of_lane[first + lane]);
       for (int i = 0; i < count; ++i) {
         const auto top = weights(taps.taps[i].top_weights), bottom = weights(taps.taps[i].bottom_weights);
@@ -402,7 +401,7 @@ HWY_INLINE void SumTexelsInLanes(const TextureData* const* textures, const Textu
 }
 #endif
 
-// Sums the texels at `taps` of kCount textures that all have those taps; a sparse one alone. (Large, so a call.)
+// Sums the texels of kCount textures that share `taps`. A sparse texture must come alone. (Large, hence not inlined.)
 template <int kCount, class T>
 HWY_NOINLINE void SumTexels(const TextureData* const* textures, const TextureTaps<T>& taps, TexelSums<T>* sums) {
   if constexpr (kInLanes<T>) {
@@ -441,10 +440,10 @@ HWY_INLINE void SumTexels(int count, const TextureData* const* of, const Texture
   }
 }
 
-// What a texture shows where `sums` were made. Of `kChannels`, a ChannelMask; the others are zero.
+// The filtered values in [0, 1] of the channels in kChannels (a ChannelMask), from `sums`; other channels are 0.
 template <int kChannels, class T>
 HWY_INLINE Vec4<T> ChannelsOf(const TextureData& data, const TexelSums<T>& sums) {
-  // From sums of numbers times weights to [0, 1]. Wide numbers are weighed less 32768.
+  // From sums of weighted components to [0, 1]. 16-bit components were summed as code - 32768, which is added back.
   const T scale((data.wide ? 1.0f / 65535.0f : 1.0f / 255.0f) / kWeightSum<T>);
   Vec4<T> c{};
   if constexpr (kWholeWeights<T>) {
@@ -477,7 +476,7 @@ HWY_INLINE Vec4<T> ChannelsOf(const TextureData& data, const TexelSums<T>& sums)
   return c;
 }
 
-// Filters `texture` by taps that were made for it, or for one that is sampled alike.
+// Filters `texture` with taps that were made for it, or for another texture that is sampled alike.
 template <int kChannels, class T>
 HWY_INLINE Vec4<T> ReadTexture(const BoundTexture& texture, const TextureTaps<T>& taps) {
   TexelSums<T> sums;
@@ -485,7 +484,7 @@ HWY_INLINE Vec4<T> ReadTexture(const BoundTexture& texture, const TextureTaps<T>
   return ChannelsOf<kChannels>(*texture.data, sums);
 }
 
-// Samples the texture of `texture` at interpolated coordinates `uv` with their derivatives over one pixel.
+// Samples `texture` at interpolated coordinates `uv` with their derivatives over one pixel.
 template <int kChannels, class T>
 HWY_INLINE Vec4<T> SampleTexture(const BoundTexture& texture, Vec2<T> uv, Vec2<T> duv_dx, Vec2<T> duv_dy) {
   TextureTaps<T> taps;

@@ -16,75 +16,79 @@ namespace facet {
 
 inline constexpr int kMaxTextureLevels = 16;  // 32768 texels a side
 
-// Where in a picture there is nothing but black, also around: of most textures of emission it is nearly everywhere, and
-// they need not be read there. Cells are the texels of the first level that is at most kMaxSide wide and high.
+// Where an emission texture is black. Most of them are black nearly everywhere, and a sample that touches only black
+// texels need not be read. A cell is one texel of the first mip level that is at most kMaxSide wide and high.
 struct DarkCells {
   static constexpr int kMaxSide = 64;
-  int width = 0, height = 0;      // cells; 0: nothing is known, as of small textures
-  float reach = 0.0f;             // texels of level 0: what is nearer than this to a dark cell is black
-  std::vector<std::int32_t> lit;  // row by row: whether a cell or one of its eight neighbours, as the picture repeats,
-                                  // shows something; 0: dark
+  int width = 0, height = 0;      // in cells; 0: nothing is known about the texture, for example because it is small
+  float reach = 0.0f;             // in texels of level 0: all texels within this distance of an empty cell are black
+  std::vector<std::int32_t> lit;  // row by row; 0: the cell and its eight neighbours are black (with repeat wrapping)
 
+  // The share of cells that are empty, 0 to 1.
   double Share() const {
     return lit.empty() ? 0.0 : double(std::count(lit.begin(), lit.end(), 0)) / double(lit.size());
   }
 };
 
-// One image with its mip levels, no more of its channels than are read: texel (x, y) of level l is number
-// level_offset[l] + y * level_pitch[l] + x, of TexelBytes() bytes. A row ends with its first texel once more, so that
-// the two texels of a row that bilinear filtering needs always are neighbours, and one load gets both. (Squares of 4 x
-// 4 texels, with four loads a footprint, are slower. The extra texel also keeps rows from lying powers of two apart.)
+// One image with its mip levels. Only the channels that some material reads are stored, as the components of a texel.
+// Texel (x, y) of level l has index level_offset[l] + y * level_pitch[l] + x and takes TexelBytes() bytes. Each row
+// repeats its first texel at its end, so that the two neighbours that bilinear filtering reads are adjacent in memory
+// and one load fetches both. (A layout in squares of 4 x 4 texels needs four loads a footprint and was slower. The
+// extra texel also keeps the distance between rows from being a power of two, which would crowd few cache sets.)
 struct TextureData {
-  bool wide = false;    // a number takes 16 bits, and is kept as signed: less 32768; else 8
-  bool sparse = false;  // ... but as it is, so that black is 0 and needs no memory; only where `dark` is known
-  int stored = 0;       // numbers of a texel
-  // Which number of a texel each of R, G, B and A is; those of a grey picture share one. -1: it is not kept. Alpha
-  // that is not kept is 1.
+  bool wide = false;    // true: components have 16 bits, stored as signed integers (code - 32768); false: 8 bits
+  bool sparse = false;  // 16-bit components are stored unsigned: black is 0, and pages of it take no memory. Only where
+                        // the empty cells are known
+  int stored = 0;       // components of a texel
+  // The component that holds each of R, G, B and A; those of a grey image share one. -1: the channel is not stored. An
+  // alpha that is not stored reads as 1.
   int place_of[4] = {-1, -1, -1, -1};
   int levels = 0;
   std::int32_t level_offset[kMaxTextureLevels] = {};  // texels
   std::int32_t level_pitch[kMaxTextureLevels] = {};   // texels from row to row
   std::int32_t level_width[kMaxTextureLevels] = {};
   std::int32_t level_height[kMaxTextureLevels] = {};
-  // Of the bytes from a texel on, those that make up 16-bit numbers R of it, R of the next, G of it, G of the next, and
-  // so on; kNoByte: 0. As byte shuffles of x86 and Arm want it.
+  // The byte shuffle (x86's pshufb, Arm's tbl) that gathers two adjacent texels into 16-bit integers: R of the first, R
+  // of the second, G of the first, and so on. Each entry is a byte offset from the first texel; kNoByte gives 0.
   std::uint8_t pair_bytes[16] = {};
-  PageVector<std::uint8_t> bytes;  // little-endian numbers, and kTexelSlack more
+  PageVector<std::uint8_t> bytes;  // little-endian components of all levels, then kTexelSlack bytes of padding
   DarkCells dark;
 
   static constexpr std::uint8_t kNoByte = 0x80;
-  static constexpr std::size_t kTexelSlack = 16;  // that one load may read beyond the last texel
+  static constexpr std::size_t kTexelSlack = 16;  // bytes that one load may read beyond the last texel
 
   int TexelBytes() const { return stored * (wide ? 2 : 1); }
-  // Where row y of a level begins in `bytes`.
+  // The offset in `bytes` of row y of a level.
   std::size_t ByteOf(int level, int y) const {
     return (std::size_t(level_offset[level]) + std::size_t(y) * std::size_t(level_pitch[level])) *
            std::size_t(TexelBytes());
   }
 };
 
-// How many texels a picture's levels take, as they are laid out.
+// The number of texels that TextureData stores for an image of this size, with the repeated one of each row.
 std::size_t TexelCount(int width, int height, bool mips);
 
-// Builds a texture from a decoded picture. Each level halves the one above, rounding down; a texel is the mean, in
-// linear light, of the area it covers, also where a size is odd. `mips`: false keeps level 0 alone. `channels`: which
-// will be read. `emission`: it is read for emission alone, hence likely to be black nearly everywhere.
-// Throws Error: OutOfMemory for pictures beyond 32768 texels a side or 2^27 texels, InvalidInput for pictures without
-// pixels, of other than 1 to 4 channels, or whose bytes do not fit their size.
+// Builds a texture from a decoded image. Each level has half the size of the one above, rounded down; a texel is the
+// mean, in linear light, of the area that it covers, also where a size is odd. `mips`: false makes level 0 only.
+// `channels`: those that will be read, bits of ChannelMask. `emission`: the texture is read for emission only, so it is
+// likely to be black nearly everywhere, and its empty cells are found. Throws Error: OutOfMemory for images of more
+// than 32768 texels a side or 2^27 texels, InvalidInput for images without pixels, with other than 1 to 4 channels, or
+// whose number of bytes does not fit their size.
 TextureData BuildTexture(const Image& image, TextureRole role, bool mips, TexelBits bits = TexelBits::Mixed,
                          int channels = kRgba, bool emission = false);
 
 // A texture as one material reads it.
 struct BoundTexture {
-  const TextureData* data = nullptr;  // null: the texture is absent, factors alone count
+  const TextureData* data = nullptr;  // null: there is no texture, and the material's factors are used alone
   Sampler sampler;
-  int uv_slot = 0;  // which of the interpolated UV sets
+  int uv_slot = 0;  // index into the material's interpolated UV sets
   // u' = transform[0] * u + transform[1] * v + transform[2], v' = transform[3] * u + ...
   float transform[6] = {1, 0, 0, 0, 1, 0};
   float max_anisotropy = 8.0f;
 };
 
-// KHR_texture_transform as a 2 x 3 matrix: translation * rotation * scale, counter-clockwise with v down.
+// Sets `texture.transform` to the KHR_texture_transform of `ref`: translation * rotation * scale, where the rotation is
+// counter-clockwise as seen with v pointing down.
 void SetTransform(const TextureRef& ref, BoundTexture& texture);
 
 }  // namespace facet

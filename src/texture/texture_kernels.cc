@@ -13,7 +13,7 @@ HWY_BEFORE_NAMESPACE();
 namespace facet {
 namespace HWY_NAMESPACE {
 
-// The codes of some pixels, channel by channel.
+// Loads the codes of one vector of pixels, and splits them into one vector per channel.
 template <int kChannels, class D>
 HWY_INLINE void LoadPixels(D d, const std::uint8_t* p, hn::Vec<D>* v) {
   if constexpr (kChannels == 1) {
@@ -27,7 +27,8 @@ HWY_INLINE void LoadPixels(D d, const std::uint8_t* p, hn::Vec<D>* v) {
   }
 }
 
-// code / 255 as division rounds it, for all codes: (257 + 1 / 255) / 65536, of which the first product is exact.
+// Equal to code / 255 for all codes from 0 to 255, without a division: 1 / 255 is (257 + 1 / 255) / 65536, and the
+// product with 257 / 65536 is exact, so only the sum is rounded.
 HWY_INLINE Float DividedBy255(Int code) {
   const Float c = ToFloat(code);
   return c * Float(257.0f / 65536.0f) + c * Float(1.0f / (255.0f * 65536.0f));
@@ -47,7 +48,7 @@ HWY_INLINE void ExpandRowOf(const ExpandRowTask& task) {
       const Int code = hn::PromoteTo(IntTag(), pixels[task.channel[k]]);
       const float* light = task.light[k];
       Store(light == nullptr      ? DividedBy255(code)
-            : All(code == Int(0)) ? Float(light[0])  // of emission, nearly everywhere: gathering takes long
+            : All(code == Int(0)) ? Float(light[0])  // common in emission textures; saves the gather
                                   : Gather(light, code),
             task.planes[k] + x);
     }
@@ -63,7 +64,7 @@ void ExpandRow(const ExpandRowTask& task) {
   }
 }
 
-// Numbers of `D` side by side: as many as a texel has.
+// Stores one vector of texels: their components, one vector each, are interleaved.
 template <int kStored, class D, class V>
 HWY_INLINE void StoreTexels(D d, const V* v, hn::TFromD<D>* out) {
   if constexpr (kStored == 1) {
@@ -97,7 +98,7 @@ HWY_INLINE void StoreRowOf(const StoreRowTask& task) {
     if (x == 0) StoreTexels<kStored>(d, numbers, first);
     if (task.leave_black && All(any == Int(0))) continue;
     std::uint8_t* out = task.bytes + x * kTexel;
-    if (x + lanes <= width) {  // a row begins where a texel does, so that wide numbers are aligned
+    if (x + lanes <= width) {  // rows begin at a whole texel, so 16-bit components are aligned
       StoreTexels<kStored>(d, numbers, reinterpret_cast<Number*>(out));
     } else {
       Number texels[kStored * kMaxLanes];
@@ -123,7 +124,7 @@ void StoreRow(const StoreRowTask& task) {
   task.wide ? StoreRowOf<std::uint16_t>(task) : StoreRowOf<std::uint8_t>(task);
 }
 
-// `kTaps`: texels of a row that lie under one of the next.
+// `kTaps`: how many texels of a row contribute to one texel of the next level.
 template <int kTaps>
 HWY_INLINE void HalveRowOf(const HalveRowTask& task) {
   const Float total(static_cast<float>(task.n)), one(1.0f);

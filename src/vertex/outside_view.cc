@@ -3,11 +3,11 @@
 namespace facet {
 namespace {
 
-// What the vertex stage may err by, in parts of the sum of the absolute values of its terms: some ten roundings to
-// float.
+// A bound on the rounding error of the vertex stage, relative to the sum of the absolute values of its terms: about ten
+// roundings to float.
 constexpr double kRounding = 0x1p-19;
 
-// factor . (x, y, distance) + constant over the box, from above.
+// An upper bound of dot(factor, (x, y, distance)) + constant over the box.
 class Highest {
  public:
   Highest(const FrameDrawable& drawable, const Bounds& box)

@@ -1,4 +1,4 @@
-// Whole drawables that the picture does not show.
+// View-frustum culling of whole drawables.
 #pragma once
 
 #include "frame/geometry.h"
@@ -6,8 +6,8 @@
 
 namespace facet {
 
-// True only if the vertex stage would find every vertex within `box` (mesh space) beyond one and the same side of the
-// view, rounding included: then none of the drawable's primitives is visible. False for an empty box.
+// True only if the vertex stage would find all vertices in `box` (mesh space) outside of the same side of the view,
+// with rounding taken into account, so that no primitive of the drawable is visible. False for an empty box.
 bool OutsideView(const FrameView& view, const FrameDrawable& drawable, const Bounds& box);
 
 }  // namespace facet

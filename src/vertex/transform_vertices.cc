@@ -30,7 +30,7 @@ void TransformVerticesKernel(const FrameView& view, const FrameDrawable& drawabl
   const Float guard_right(static_cast<float>(view.width) * 0.5f + static_cast<float>(kGuardBand));
   const Float guard_top(static_cast<float>(view.height) * 0.5f - static_cast<float>(kGuardBand));
   const Float guard_bottom(static_cast<float>(view.height) * 0.5f + static_cast<float>(kGuardBand));
-  // Vertices that will be clipped have no place on the screen; this keeps their conversion to integers defined.
+  // Vertices that will be clipped have no screen position; clamping keeps their conversion to integers defined.
   const Float limit(static_cast<float>(4 * kGuardBand * kSubpixelScale));
 
   alignas(64) float tail[3 * kMaxLanes] = {};

@@ -1,4 +1,4 @@
-// Vertices from mesh space to the screen.
+// The vertex stage: transforms vertices from mesh space to the screen.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,6 @@
-// Refuses to be compiled where the compiler may compute something else than what is written: the picture's bits are
-// promised (docs/determinism.md). cmake/FacetArithmeticCheck.cmake looks at the flags; contraction can be seen there only.
+// Refuses compilation with options that allow the compiler to change floating-point results, because the bits of images
+// are guaranteed (docs/determinism.md). cmake/FacetArithmeticCheck.cmake checks the flags as well, since contraction is
+// visible only there.
 #pragma once
 
 #include <limits>
@@ -9,7 +10,7 @@
 #error "facet is compiled without -ffast-math and its parts: its pictures are the same to the last bit everywhere"
 #endif
 
-// 16: more precision for half floats alone, of which facet has none.
+// 16 means more precision for half floats only, which facet does not use.
 #if defined(__FLT_EVAL_METHOD__) && __FLT_EVAL_METHOD__ != 0 && __FLT_EVAL_METHOD__ != 16
 #error "facet needs float arithmetic in float, double in double; x87 arithmetic keeps more digits"
 #endif

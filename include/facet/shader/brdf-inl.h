@@ -1,6 +1,6 @@
-// The terms that reflection models are made of: microfacet distribution, masking, Fresnel, diffuse.
-// Directions are unit vectors pointing away from the surface; n_dot_v and the like are their cosines with the normal.
-// `alpha` is GGX's width, the square of glTF's perceptual roughness. T is Float (lanes), float or double.
+// The terms of reflection models: microfacet distribution, masking and shadowing, Fresnel, diffuse. Directions are unit
+// vectors pointing away from the surface; n_dot_v and the like are their cosines with the normal. `alpha` is GGX's
+// width, the square of glTF's perceptual roughness. T is Float (lanes), float or double.
 
 #if defined(FACET_SHADER_BRDF_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef FACET_SHADER_BRDF_INL_H_
@@ -19,11 +19,11 @@ namespace HWY_NAMESPACE {
 inline constexpr float kPi = 3.14159265358979324f;
 inline constexpr float kInversePi = 0.318309886183790672f;
 
-// The smoothest surface that lights without extent can be seen in. glTF leaves alpha = 0 to the renderer (clamped or a
-// mirror): a mirror never shows a point light. At 0.045 (Filament's bound for 32-bit floats; Guy and Agopian, 2018,
-// Physically Based Rendering in Filament, section 4.8.3.3) alpha is 0.002 and a highlight is 0.2 degrees wide.
+// The least roughness for punctual lights, which a perfect mirror would never reflect (glTF leaves alpha = 0 to the
+// renderer). At 0.045 (Filament's bound for 32-bit floats; Guy and Agopian, 2018, Physically Based Rendering in
+// Filament, section 4.8.3.3) alpha is 0.002 and a highlight is 0.2 degrees wide.
 inline constexpr float kMinPerceptualRoughness = 0.045f;
-// Cosines with the view are kept above this: interpolated and mapped normals may face away from the eye.
+// The least cosine with the view. Interpolated and mapped normals may face away from the eye.
 inline constexpr float kMinNDotV = 1e-4f;
 // Reflectance at normal incidence of glTF's dielectric, of index of refraction 1.5.
 inline constexpr float kDielectricF0 = 0.04f;
@@ -33,9 +33,9 @@ HWY_INLINE T AlphaFromPerceptualRoughness(T perceptual_roughness) {
   return perceptual_roughness * perceptual_roughness;
 }
 
-// Microfacet distribution, in 1/steradian; the integral of D(h) n_dot_h over the hemisphere is 1.
-// Walter et al., 2007, Microfacet Models for Refraction through Rough Surfaces, equation 33.
-// `sin2_n_h` is 1 - n_dot_h^2, given apart: computed from n_dot_h in floats it would lose all digits in the highlight.
+// Microfacet distribution, in 1/steradian; the integral of D(h) n_dot_h over the hemisphere is 1. Walter et al., 2007,
+// Microfacet Models for Refraction through Rough Surfaces, equation 33. `sin2_n_h` is 1 - n_dot_h^2. It is a parameter
+// because computing it from n_dot_h in float loses all digits within the highlight.
 template <class T>
 HWY_INLINE T DistributionGgx(T n_dot_h, T sin2_n_h, T alpha) {
   const T a = n_dot_h * alpha;
@@ -95,10 +95,10 @@ HWY_INLINE T DiffuseLambert() {
   return T(kInversePi);
 }
 
-// What multiple scattering between microfacets gives back of the energy that single scattering loses: the factor
-// Favg^2 Eavg / (1 - Favg (1 - Eavg)) of Kulla and Conty, 2017, Revisiting Physically Based Shading at Imageworks,
-// with the square that Hill, 2018, A Multi-Faceted Exploration, part 3, adds (light bounces at least twice).
-// 1 for a perfect reflector.
+// The share of the energy lost by single scattering that multiple scattering between microfacets returns: the factor
+// Favg^2 Eavg / (1 - Favg (1 - Eavg)) of Kulla and Conty, 2017, Revisiting Physically Based Shading at Imageworks, with
+// the square that Hill, 2018, A Multi-Faceted Exploration, part 3, adds (light bounces at least twice). 1 for a perfect
+// reflector.
 template <class T>
 HWY_INLINE T MultipleScatteringFresnel(T f0, T e_avg) {
   const T f = FresnelSchlickAverage(f0);

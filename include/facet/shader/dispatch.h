@@ -1,4 +1,5 @@
-// Which instruction set runs, and the table of a kernel's versions. A kernel's source file looks so:
+// Run-time choice of the instruction set, and dispatch to a kernel's version for it. A kernel's source file looks like
+// this:
 //
 //   #undef HWY_TARGET_INCLUDE
 //   #define HWY_TARGET_INCLUDE "raster/raster_tile.cc"   // itself, as the include path finds it
@@ -16,23 +17,24 @@
 //   }
 //   #endif
 //
-// Only pointers, references and scalars cross the dispatch. Lambdas in a kernel need HWY_ATTR.
+// Only pointers, references and scalars may be passed through the dispatch. Lambdas in a kernel need HWY_ATTR.
 #pragma once
 
 #include "facet/shader/arithmetic_check.h"
 
 namespace facet {
 
-// Highway's names. Neon stands for the best target of 64-bit Arm.
+// Instruction sets by Highway's names. Neon is the best target of 64-bit Arm.
 enum class Target { Scalar, Sse4, Avx2, Avx3, Neon };
 
-// The target in use: the one that FACET_TARGET names (SCALAR, SSE4, AVX2, AVX3, NEON), else the best that the processor
-// has. Throws Error(InvalidUsage) when the variable names an unknown one or one that the processor lacks.
+// The target in use: the one named by the environment variable FACET_TARGET (SCALAR, SSE4, AVX2, AVX3, NEON), otherwise
+// the best that the processor supports. Throws Error(InvalidUsage) if the variable names an unknown target, or one that
+// the processor does not support.
 Target ActiveTarget();
 const char* TargetName(Target target);
 bool TargetIsAvailable(Target target);
 
-// For tests: overrides FACET_TARGET for the lifetime of the object. Not for use while something renders.
+// For tests: overrides FACET_TARGET for the lifetime of the object. Must not be used while a frame is rendered.
 class ScopedTarget {
  public:
   explicit ScopedTarget(Target target);
@@ -44,7 +46,7 @@ class ScopedTarget {
   int previous_;
 };
 
-// The version for `target`, or the scalar one where the build lacks it.
+// The version for `target`, or the scalar one if the build does not contain it.
 template <class Function>
 Function ChooseKernel(Target target, Function scalar, Function sse4, Function avx2, Function avx3, Function neon) {
   const Function best = target == Target::Sse4   ? sse4

@@ -26,12 +26,12 @@ HWY_BEFORE_NAMESPACE();
 namespace facet {
 namespace HWY_NAMESPACE {
 
-// --- Bits of float, as of Float ------------------------------------------------------------------------------------
+// --- Bits of float and Float ---------------------------------------------------------------------------------------
 
 HWY_INLINE std::int32_t BitsOf(float a) { return std::bit_cast<std::int32_t>(a); }
 HWY_INLINE float FloatFromBits(std::int32_t a) { return std::bit_cast<float>(a); }
 HWY_INLINE float ToFloat(std::int32_t a) { return static_cast<float>(a); }
-void BitsOf(double) = delete;  // what is built on bits is for float; double has functions of its own
+void BitsOf(double) = delete;  // functions built on bits are for float; those of double are separate
 
 // --- Parts ----------------------------------------------------------------------------------------------------------
 

@@ -2,8 +2,9 @@
 // The same free functions exist for plain float and double, so that a functor template over T runs on lanes in the
 // rasterizer, in double in the reference and in float in tests.
 //
-// Only what IEEE 754 rounds exactly: + - * / sqrt, comparison, selection, rounding. No fused multiply-add, no
-// reciprocal estimates. Min and Max are selections, (a < b ? a : b): a NaN in `a` gives b, on every target.
+// There are only operations that IEEE 754 rounds correctly: + - * / sqrt, comparison, selection, rounding; no fused
+// multiply-add and no reciprocal estimates. Min and Max are selections, (a < b ? a : b), so that a NaN in `a` gives b
+// on every target.
 
 #if defined(FACET_SHADER_LANE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef FACET_SHADER_LANE_INL_H_
@@ -29,13 +30,13 @@ using FloatTag = hn::ScalableTag<float>;
 using IntTag = hn::ScalableTag<std::int32_t>;
 using UintTag = hn::ScalableTag<std::uint32_t>;
 
-// How many fragments go side by side.
+// The number of lanes.
 HWY_INLINE HWY_MAYBE_UNUSED std::size_t LaneCount() { return hn::Lanes(FloatTag()); }
-// An upper bound of it that is a constant.
+// A constant upper bound of the number of lanes.
 inline constexpr std::size_t kMaxLanes = HWY_MAX_BYTES / sizeof(float) < 1 ? 1 : HWY_MAX_BYTES / sizeof(float);
 
-// Default construction leaves lanes unset, as for float; Float{} is zero. (A constructor of our own would be called from
-// those that the compiler makes for structs of lanes, which GCC compiles for no instruction set in particular.)
+// Default construction leaves lanes uninitialised, as for float; Float{} is zero. (A user-provided constructor would be
+// called from the implicit constructors of structs of lanes, which GCC compiles for the baseline instruction set.)
 
 // --- Types -------------------------------------------------------------------------------------------------------------
 
@@ -53,7 +54,7 @@ struct Float {
   Raw raw;
   Float() = default;
   HWY_INLINE Float(Raw r) : raw(r) {}                               // NOLINT
-  HWY_INLINE Float(float f) : raw(hn::Set(FloatTag(), f)) {}        // NOLINT: constants read as in scalar code
+  HWY_INLINE Float(float f) : raw(hn::Set(FloatTag(), f)) {}        // NOLINT: constants as in scalar code
 };
 
 struct Int {
@@ -140,7 +141,7 @@ HWY_INLINE Int Min(Int a, Int b) { return hn::Min(a.raw, b.raw); }
 HWY_INLINE Int Max(Int a, Int b) { return hn::Max(a.raw, b.raw); }
 
 HWY_INLINE Float ToFloat(Int a) { return hn::ConvertTo(FloatTag(), a.raw); }
-// Towards zero. The caller keeps |a| < 2^31: what lies beyond differs between processors.
+// Rounds towards zero. The caller ensures |a| < 2^31, since results beyond differ between processors.
 HWY_INLINE Int TruncateToInt(Float a) { return hn::ConvertTo(IntTag(), a.raw); }
 HWY_INLINE Int BitsOf(Float a) { return hn::BitCast(IntTag(), a.raw); }
 HWY_INLINE Float FloatFromBits(Int a) { return hn::BitCast(FloatTag(), a.raw); }

@@ -1,5 +1,5 @@
-// The integers that go with T = Float, float or double, and reading numbers from memory with them: lanes load and
-// gather, float and double index. Tables hold floats, whatever T is.
+// The integer types that go with T = Float, float or double, and table lookups with them: lanes load and gather,
+// scalars index. Tables are of float for every T.
 
 #if defined(FACET_SHADER_LOOKUP_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef FACET_SHADER_LOOKUP_INL_H_
@@ -29,7 +29,7 @@ struct IntTraits<Float> {
 template <class T>
 using IntOf = typename IntTraits<T>::Type;
 
-// --- Integers of scalars, as Int stands beside Float -----------------------------------------------------------------
+// --- The scalar integers, corresponding to Int ----- -----------------------------------------------------------------
 
 HWY_INLINE std::int32_t Select(bool m, std::int32_t a, std::int32_t b) { return m ? a : b; }
 HWY_INLINE std::int32_t Min(std::int32_t a, std::int32_t b) { return a < b ? a : b; }
@@ -47,7 +47,7 @@ HWY_INLINE std::int32_t ShiftRightLogical(std::int32_t a) {
   return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) >> kBits);
 }
 
-// Towards zero; the caller keeps it in range (Clamp turns a NaN into the lower bound).
+// Rounds towards zero. The caller ensures the range (Clamp turns a NaN into the lower bound).
 template <class T, RequireScalar<T> = 0>
 HWY_INLINE std::int32_t TruncateToInt(T a) {
   return static_cast<std::int32_t>(a);
@@ -63,7 +63,7 @@ HWY_INLINE T FromInt(IntOf<T> a) {
 
 // --- Memory ----------------------------------------------------------------------------------------------------------
 
-// The number at p, or those of all lanes from p on.
+// Loads the value at p, or one for each lane from p on.
 template <class T>
 HWY_INLINE T Load(const float* p) {
   if constexpr (std::is_same_v<T, Float>) {
@@ -93,7 +93,7 @@ HWY_INLINE T Fetch(const float* p, IntOf<T> index) {
 HWY_INLINE Int FetchInt(const std::int32_t* p, Int index) { return Gather(p, index); }
 HWY_INLINE std::int32_t FetchInt(const std::int32_t* p, std::int32_t index) { return p[index]; }
 
-// p[index] where p has 16 entries: such a table fits registers.
+// p[index] for a table of 16 entries, which fits registers.
 HWY_INLINE Int FetchOf16(const std::int32_t* p, Int index) {
 #if HWY_TARGET == HWY_AVX3
   return hn::TableLookupLanes(hn::LoadU(IntTag(), p), hn::IndicesFromVec(IntTag(), index.raw));
@@ -103,22 +103,21 @@ HWY_INLINE Int FetchOf16(const std::int32_t* p, Int index) {
 }
 HWY_INLINE std::int32_t FetchOf16(const std::int32_t* p, std::int32_t index) { return p[index]; }
 
-// Several numbers that stand side by side in memory, p[index], p[index + 1] and so on, for each lane: one wide load a
-// lane and a transposition. Processors gather element by element, so that a gather for each takes about as many times as
-// long.
+// Loads of several adjacent values, p[index], p[index + 1] and so on, for each lane: one vector load per lane, and a
+// transposition. Processors gather element by element, so one gather for each value would take several times as long.
 #if HWY_TARGET != HWY_SCALAR
-// The two numbers at p + at[0], those at p + at[1], and so on, side by side.
+// The two values at p + at[0], the two at p + at[1], and so on, in one vector.
 template <int kScale, class D64>
 HWY_INLINE hn::Vec<D64> PairsInOrder(D64 d, const std::int32_t* p, const std::int32_t* at) {
   if constexpr (hn::MaxLanes(D64()) == 1) {
-    const hn::Repartition<std::int32_t, D64> two;  // p is aligned for no more than that
+    const hn::Repartition<std::int32_t, D64> two;  // p is aligned to 4 bytes only
     return hn::BitCast(d, hn::LoadU(two, p + std::ptrdiff_t(at[0]) * kScale));
   } else {
     const hn::Half<D64> half;
     return hn::Combine(d, PairsInOrder<kScale>(half, p, at + hn::MaxLanes(half)), PairsInOrder<kScale>(half, p, at));
   }
 }
-// The 16 bytes at p + kScale * at[0], those at p + kScale * at[4], and so on, side by side: of every fourth lane.
+// The 16 bytes at p + kScale * at[0], those at p + kScale * at[4], and so on, for every fourth lane, in one vector.
 template <int kScale, class D, class Number>
 HWY_INLINE hn::Vec<D> EveryFourthRow(D d, const Number* p, const std::int32_t* at) {
   constexpr std::size_t kRows = hn::MaxLanes(D()) * sizeof(hn::TFromD<D>) / 16;
@@ -129,7 +128,7 @@ HWY_INLINE hn::Vec<D> EveryFourthRow(D d, const Number* p, const std::int32_t* a
     return hn::Combine(d, EveryFourthRow<kScale>(half, p, at + 2 * kRows), EveryFourthRow<kScale>(half, p, at));
   }
 }
-// Four numbers for each lane, from rows[j] with those of lanes j, j + 4 and so on.
+// Transposes: rows[j] has four values each of lanes j, j + 4 and so on; the results have one value of every lane.
 template <class D>
 HWY_INLINE void Transpose(D d, const hn::Vec<D> (&rows)[4], hn::Vec<D>* out) {
   const auto xy02 = hn::InterleaveLower(d, rows[0], rows[2]), zw02 = hn::InterleaveUpper(d, rows[0], rows[2]);
@@ -147,7 +146,7 @@ HWY_INLINE void TransposedRows(D d, const Number* p, const std::int32_t* at, hn:
 }
 #endif
 
-// The index of each lane, in memory, where loads one by one want it.
+// The index of each lane, stored in memory for lane-by-lane loads.
 template <class T>
 struct IndexList {
   static constexpr int kLanes = sizeof(IntOf<T>) / sizeof(std::int32_t);
@@ -210,9 +209,9 @@ HWY_INLINE Vec4<T> FetchVec4(const float* p, IntOf<T> index) {
   }
 }
 
-// (w[0] p[i[0]] + w[1] p[i[1]]) + (w[2] p[i[2]] + w[3] p[i[3]]), of three numbers side by side in memory, of four that
-// can be read: bilinear reading. Numbers are weighed as they lie and the sums transposed, which takes a fourth of the
-// shuffles of transposing what is read.
+// Bilinear interpolation: (w[0] p[i[0]] + w[1] p[i[1]]) + (w[2] p[i[2]] + w[3] p[i[3]]) for three adjacent components,
+// of which a fourth must be readable. Components are weighted in memory order and only the sums are transposed, which
+// takes a quarter of the shuffles.
 template <class T>
 HWY_INLINE Vec3<T> WeighFour(const float* p, const IntOf<T> (&i)[4], const T (&w)[4]) {
 #if HWY_TARGET != HWY_SCALAR
@@ -220,7 +219,7 @@ HWY_INLINE Vec3<T> WeighFour(const float* p, const IntOf<T> (&i)[4], const T (&w
     const FloatTag d;
     alignas(64) std::int32_t at[4][kMaxLanes];
     for (int k = 0; k < 4; ++k) Store(i[k], at[k]);
-    // Of lanes kRow, kRow + 4 and so on, each of whose weights is one of four in a block of a vector.
+    // For lanes kRow, kRow + 4 and so on. The weights of each are one of the four words of a 16-byte block.
     const auto sum = [&]<int kRow>(std::integral_constant<int, kRow>) HWY_ATTR {
       const auto term = [&](int k) HWY_ATTR {
         return hn::Mul(EveryFourthRow<1>(d, p, at[k] + kRow), hn::Broadcast<kRow>(w[k].raw));
@@ -238,7 +237,7 @@ HWY_INLINE Vec3<T> WeighFour(const float* p, const IntOf<T> (&i)[4], const T (&w
   return (term(0) + term(1)) + (term(2) + term(3));
 }
 
-// Where x in [0, last] lies between two samples: floor (at most last - 1) and fraction.
+// The position of x in [0, last] between two samples: floor (at most last - 1) and fraction.
 template <class T>
 struct TablePosition {
   IntOf<T> index;

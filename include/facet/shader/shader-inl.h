@@ -1,4 +1,4 @@
-// All that a fragment shader of one's own needs. A shader is a functor in a file of its own:
+// Everything that a user's fragment shader needs. A shader is a functor in its own file:
 //
 //   #include "facet/shader/shader-inl.h"
 //   FACET_SHADER_BEGIN
@@ -13,8 +13,8 @@
 // which compiles it for every instruction set and gives the program `facet::MakeToon()`, declared in "toon.shader.h":
 // a std::unique_ptr<const facet::FragmentShader> for RenderSettings::shader.
 //
-// A functor that reads no light, or also that of unlit materials, says so: `static constexpr LightUse kLight =
-// LightUse::None;` (facet/shader.h). The frame then prepares no environment that nobody reads.
+// A functor that reads no light, or reads it for unlit materials as well, declares it: `static constexpr LightUse
+// kLight = LightUse::None;` (facet/shader.h). The frame does not prefilter an environment that no shader reads.
 //
 // T is Float, a packet of lanes: arithmetic, comparison, Select, Min, Max, Clamp, Sqrt and the functions of
 // elementary-inl.h work on it; `if` does not. The file may be included many times: it has no include guard of its own

@@ -1,4 +1,4 @@
-// What a fragment shader receives and returns. T is Float (lanes), float or double.
+// The input and the result of a fragment shader. T is Float (lanes), float or double.
 
 #if defined(FACET_SHADER_SURFACE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef FACET_SHADER_SURFACE_INL_H_
@@ -15,19 +15,19 @@ namespace HWY_NAMESPACE {
 
 inline constexpr int kSurfaceUvSlots = 32;  // more than any material has textures
 
-// A point of a surface under one fragment. World axes; unit vectors are unit.
+// The surface at one fragment. World axes.
 template <class T>
 struct Surface {
   Vec3<T> position;  // metres, relative to the eye
   Vec3<T> view;      // unit, towards the eye
   Vec3<T> normal;    // unit, interpolated, on the viewer's side
-  // Interpolated and not normalised, as MikkTSpace demands of what bends normals; tangent.w is the handedness. Only where
+  // Interpolated but not normalised, as MikkTSpace demands for normal mapping; tangent.w is the handedness. Set only if
   // the material has a normal texture.
   Vec3<T> interpolated_normal;
   Vec4<T> tangent;
   Vec4<T> color;     // vertex colour, linear; 1 where there is none
-  // Texture coordinates of each UV set that the material reads, and how they change over one pixel to the right and down;
-  // the others are zero.
+  // Texture coordinates of each UV set that the material reads, and their derivatives over one pixel to the right and
+  // down. The other sets are zero.
   Vec2<T> uv[kSurfaceUvSlots], duv_dx[kSurfaceUvSlots], duv_dy[kSurfaceUvSlots];
 };
 

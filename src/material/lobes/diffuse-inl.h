@@ -1,6 +1,6 @@
-// The diffuse base of a dielectric, lit by, and seen through, what the dielectric's specular reflection leaves:
+// The diffuse base of a dielectric. Light enters and leaves it through the interface, reduced by specular reflection:
 //    base / pi (1 - Ed(v)) (1 - Ed(l)) / (1 - Ed_avg), with Ed the albedo of that reflection,
-// which is reciprocal, and loses and makes no energy. (glTF's appendix B couples diffuse by 1 - F(v.h) instead, which
+// which is reciprocal and conserves energy. (glTF's appendix B couples diffuse by 1 - F(v.h) instead, which
 // gains and loses at grazing angles.) Under image-based light: base (1 - Ed(v)) irradiance / pi.
 
 #if defined(FACET_MATERIAL_LOBES_DIFFUSE_INL_H_) == defined(HWY_TARGET_TOGGLE)

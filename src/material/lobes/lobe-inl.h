@@ -1,9 +1,8 @@
-// What every lobe of a closure shares. A lobe is one way in which a surface reflects light, in a file of its own, and
-// has
-//   a constructor:                                   what of it depends on the view alone;
+// What all lobes of a closure share. A lobe is one way in which a surface reflects light. Each has its own file, and
+//   a constructor:                                   computes what depends on the view only;
 //   Vec3<T> Direct(const Incidence<T>&, ...) const;  its BRDF, in 1/steradian, for light from one direction;
-//   EnvironmentTerms<T> Environment(...) const;      what it reflects of light from all around.
-// The closure (material/closure-inl.h) adds up the lobes that a material has.
+//   EnvironmentTerms<T> Environment(...) const;      its reflection of the environment.
+// The closure (material/closure-inl.h) sums the lobes that a material has.
 
 #if defined(FACET_MATERIAL_LOBES_LOBE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef FACET_MATERIAL_LOBES_LOBE_INL_H_
@@ -20,13 +19,13 @@ HWY_BEFORE_NAMESPACE();
 namespace facet {
 namespace HWY_NAMESPACE {
 
-// Albedos of GGX at one roughness: where Fresnel is Schlick's with F0, single scattering reflects F0 * a + b.
+// The albedo of GGX at one roughness: with Schlick's Fresnel of F0, single scattering reflects F0 * a + b.
 template <class T>
 struct SpecularAlbedo {
   T a{}, b{};
 };
 
-// What single scattering loses.
+// The energy that single scattering loses.
 template <class T>
 HWY_INLINE T LostEnergy(SpecularAlbedo<T> albedo) {
   return Max(T(1.0f) - (albedo.a + albedo.b), T(0.0f));
@@ -36,7 +35,7 @@ HWY_INLINE T LostEnergy(SpecularAlbedo<T> albedo) {
 template <class T>
 struct LightSample {
   Vec3<T> direction;   // unit, from the surface to the light
-  Vec3<T> irradiance;  // on a surface that faces it: lux
+  Vec3<T> irradiance;  // on a surface that faces the light: lux
 };
 
 // A point of a surface seen from one direction.
@@ -46,15 +45,15 @@ struct SurfaceView {
   T n_dot_v{};           // kMinNDotV or more
 };
 
-// Light from one direction on that point.
+// Light from one direction that arrives at that point.
 template <class T>
 struct Incidence {
   Vec3<T> half;  // unit, between the view and the light
   T n_dot_l{}, v_dot_h{};
 };
 
-// Light from all around, as one lobe reflects it: what it gathers itself, and how much of the irradiance, divided by
-// pi, it reflects besides. All lobes on one normal share one look at the irradiance.
+// The reflection of the environment by one lobe: radiance that it looks up itself, and the factor of irradiance / pi
+// that it reflects in addition. The closure looks up the irradiance once for all lobes.
 template <class T>
 struct EnvironmentTerms {
   Vec3<T> radiance;

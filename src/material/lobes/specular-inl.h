@@ -1,12 +1,12 @@
-// Specular reflection of a mixture, by metalness, of a metal (GGX, coloured Fresnel) and a dielectric (GGX with F0 =
-// 0.04), and what light that is scattered several times between the microfacets of either adds to it, so that no energy
-// is lost: the lobe Fms (1 - E(v)) (1 - E(l)) / (pi (1 - Eavg)), with E the albedo of single scattering where Fresnel
-// is 1 (Kulla and Conty, 2017, Revisiting Physically Based Shading at Imageworks).
+// The specular reflection of a metal (GGX, coloured Fresnel) and a dielectric (GGX with F0 = 0.04), mixed by metalness,
+// with multiple scattering between microfacets, so that no energy is lost. Multiple scattering adds the lobe Fms (1 -
+// E(v)) (1 - E(l)) / (pi (1 - Eavg)), where E is the albedo of single scattering with Fresnel 1 (Kulla and Conty, 2017,
+// Revisiting Physically Based Shading at Imageworks).
 //
 // Under image-based light the directional terms become albedos (Karis, 2013, Real Shading in Unreal Engine 4: split
 // sum; Fdez-Aguera, 2019, A Multiple-Scattering Microfacet Model for Real-Time Image-based Lighting):
 //    prefiltered(d) (F0 A + B) + Fms (1 - E) irradiance / pi.
-// d is where the lobe's light comes from, which is the mirror direction only for smooth surfaces.
+// d is the dominant direction of the lobe, which is the mirror direction only for smooth surfaces.
 
 #if defined(FACET_MATERIAL_LOBES_SPECULAR_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef FACET_MATERIAL_LOBES_SPECULAR_INL_H_
@@ -49,7 +49,8 @@ struct SpecularLobe {
     multiple_fresnel = {fd + MultipleScatteringFresnel(base_color.x, e_avg) * metallic,
                         fd + MultipleScatteringFresnel(base_color.y, e_avg) * metallic,
                         fd + MultipleScatteringFresnel(base_color.z, e_avg) * metallic};
-    // A nearly smooth surface loses nearly nothing: 1 - E is then as small as 1 - Eavg, whose rounding must not divide.
+    // Nearly smooth surfaces lose almost nothing: 1 - E and 1 - Eavg are then both so small that their quotient would
+    // be nothing but rounding error.
     multiple_scale = T(kInversePi) / Max(LostEnergy(average_albedo), T(1e-6f));
   }
 
@@ -61,7 +62,7 @@ struct SpecularLobe {
     return fresnel * single + multiple_fresnel * multiple;
   }
 
-  // `unclamped_roughness`: the material's; smoother than the lobe of lights without extent can be.
+  // `unclamped_roughness`: the material's, which may be smoother than the lobe for punctual lights.
   template <class Lighting>
   HWY_INLINE EnvironmentTerms<T> Environment(const SurfaceView<T>& at, T unclamped_roughness,
                                              const Lighting& lighting) const {
@@ -70,18 +71,19 @@ struct SpecularLobe {
     return {prefiltered * single, multiple_fresnel * LostEnergy(albedo)};
   }
 
-  // Where a rough lobe gathers most of its light: between the mirror direction and the normal, because masking and the
-  // cosine take more of its grazing side (Lagarde and de Rousiers, 2014, Moving Frostbite to Physically Based
+  // The dominant direction of a rough lobe. It lies between the mirror direction and the normal, because masking and
+  // the cosine remove more of its grazing side (Lagarde and de Rousiers, 2014, Moving Frostbite to Physically Based
   // Rendering, section 4.9.3). The weight of the normal is close to the best under soft lamps
-  // (src/light/fit_dominant_direction.py measures it) and a little less on smoother surfaces, where the small suns of
-  // photographed skies ask for that. Not unit.
+  // (src/light/fit_dominant_direction.py measures it), and a little less on smoother surfaces, which suits the small
+  // suns of photographed skies better. Not normalised.
   HWY_INLINE Vec3<T> DominantDirection(const SurfaceView<T>& at) const {
     const Vec3<T> mirror = at.normal * (T(2.0f) * Dot(at.normal, at.view)) - at.view;
     const T to_normal = alpha * alpha * (T(1.5f) + alpha * (T(0.35f) - alpha * T(0.95f)));
     return Mix(mirror, at.normal, to_normal);
   }
 
-  // What the dielectric's reflection leaves to its base: 1 - Ed, with Ed = F0 A + B + Fms (1 - E). `of`: at some angle.
+  // The share of light that the dielectric's interface does not reflect, so that it reaches the base: 1 - Ed, with Ed =
+  // F0 A + B + Fms (1 - E). `of`: the albedo at some angle.
   HWY_INLINE T EnergyLeftByDielectric(SpecularAlbedo<T> of) const {
     const T reflected = T(kDielectricF0) * of.a + of.b + dielectric_multiple_fresnel * LostEnergy(of);
     return Max(T(1.0f) - reflected, T(0.0f));

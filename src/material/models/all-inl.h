@@ -1,4 +1,4 @@
-// The functors of all shading models, and the one that a material asks for.
+// The functors of all shading models, and the choice of the one that a material has.
 
 #if defined(FACET_MATERIAL_MODELS_ALL_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef FACET_MATERIAL_MODELS_ALL_INL_H_
@@ -15,7 +15,7 @@ HWY_BEFORE_NAMESPACE();
 namespace facet {
 namespace HWY_NAMESPACE {
 
-// What the material shows without a shader of a user's own.
+// Shades by the material's own model, as long as no user's shader replaces it.
 struct ModelOfMaterial {
   template <class T, class Material, class Lighting>
   HWY_INLINE Shaded<T> operator()(const Surface<T>& surface, const Material& material, const Lighting& lighting) const {

@@ -1,4 +1,4 @@
-// glTF 2.0's material as a fragment shader.
+// glTF 2.0's metallic-roughness material as a fragment shader.
 
 #if defined(FACET_MATERIAL_MODELS_METALLIC_ROUGHNESS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef FACET_MATERIAL_MODELS_METALLIC_ROUGHNESS_INL_H_

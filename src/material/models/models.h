@@ -1,6 +1,6 @@
-// The table of shading models. A model is a functor of its own file beside this one; it is compiled for lanes of every
-// instruction set and in double by the shading stage, and the reference has its own evaluation of it
-// (reference/models_exact.cc); both loop over FACET_SHADING_MODELS.
+// The table of shading models. A model is a functor in a file of its own beside this one. The shading stage, which
+// loops over FACET_SHADING_MODELS, compiles it for the lanes of every instruction set, and for double. The reference has
+// its own evaluation of each (reference/models_exact.cc).
 #pragma once
 
 #include <algorithm>
@@ -18,8 +18,8 @@ namespace facet {
 struct ModelInfo {
   ShadingModel model;
   const char* word;                // in the output of `facet info`
-  const char* gltf_extension;      // whose presence chooses it; null: glTF's own
-  MaterialFeatures texture_slots;  // bits of those that it reads
+  const char* gltf_extension;      // the extension that selects it; null: core glTF
+  MaterialFeatures texture_slots;  // bits of the slots that it reads
   bool reads_light;
 };
 

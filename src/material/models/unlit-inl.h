@@ -1,5 +1,5 @@
-// Base colour as it is (KHR_materials_unlit). Also what points and lines without normals show, with their emission
-// (glTF 2.0 specification, 3.9.6).
+// The unlit model: shows the base colour as it is (KHR_materials_unlit). It is also used for points and lines without
+// normals, which show their emission as well (glTF 2.0 specification, 3.9.6).
 
 #if defined(FACET_MATERIAL_MODELS_UNLIT_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef FACET_MATERIAL_MODELS_UNLIT_INL_H_
