@@ -47,10 +47,10 @@ void ReadExtensions(Context& context) {
     if (supported) continue;
     Place(context.place, is_required ? "extensionsRequired" : "extensionsUsed")
         .Warn("ignored: " + name + " is not supported");
-    if (is_required && ++missing_count <= kMostNamed) missing += (missing.empty() ? "" : ", ") + name;
+    if (is_required && ++missing_count <= kMostNamed) missing += (missing.empty() ? "" : ", ") + (name.empty() ? "\"\"" : name);
   }
   if (missing_count > kMostNamed) missing += " and " + std::to_string(missing_count - kMostNamed) + " more";
-  if (!missing.empty() && !context.options.ignore_required_extensions) {
+  if (missing_count > 0 && !context.options.ignore_required_extensions) {
     Fail(Place(context.place, "extensionsRequired"), "the file requires " + missing + ", which facet does not support",
          "export it without, or ignore required extensions", ErrorCode::Unsupported);
   }

@@ -15,8 +15,11 @@ HWY_BEFORE_NAMESPACE();
 namespace facet {
 namespace HWY_NAMESPACE {
 
-#define FACET_MODEL_KERNEL(Name) \
-  void Name##Kernel(const ShadeTask& task) { ShadePackets(task, Name()); }
+#define FACET_MODEL_KERNEL(Name)             \
+  void Name##Kernel(const ShadeTask& task) { \
+    Surface<Float> surfaces[2];              \
+    ShadePackets(task, Name(), surfaces);    \
+  }
 FACET_SHADING_MODELS(FACET_MODEL_KERNEL)
 #undef FACET_MODEL_KERNEL
 

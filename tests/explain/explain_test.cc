@@ -49,6 +49,20 @@ TEST(Explain, APlainSceneHasLittleToExplain) {
   EXPECT_GT(e.steady_seconds, 0.0);
 }
 
+TEST(Explain, ANormalTextureWithoutAPictureNeedsNoTangents) {
+  Scene scene;
+  scene.textures.emplace_back();
+  Material material;
+  material.normal_texture = Ref(0);
+  Add(scene, Rectangle(-1, -1, 1, 1), AddMaterial(scene, material));
+  const Explanation e = Explain(scene, Settings(32, 32, 1, Perspective(1.0, {0, 0, 3})));
+  EXPECT_NE(std::find(e.first.left_out.begin(), e.first.left_out.end(), "tangents: no normal texture is read"),
+            e.first.left_out.end());
+  EXPECT_EQ(e.first.pose_bytes, 0u);
+  ASSERT_EQ(e.materials.size(), 1u);
+  EXPECT_TRUE(e.materials[0].features.empty());
+}
+
 TEST(Explain, NamesAndCountsWhatTheFrameUses) {
   Scene scene;
   const auto texture = [&](int width, int height) {

@@ -224,5 +224,26 @@ TEST(Container, RequiredExtensionsAreRefusedByName) {
   EXPECT_EQ(LoadBytes(json, options).report.warnings.size(), 2u);
 }
 
+// The tables of models and parameters name extensions, and beside them objects of glTF's own.
+TEST(Container, OnlyExtensionsAreSupportedExtensions) {
+  const auto file = [](const std::string& list, const std::string& name) {
+    return R"({"asset":{"version":"2.0"},")" + list + R"(":[")" + name + R"("]})";
+  };
+  for (const std::string name : {"pbrMetallicRoughness", "normalTexture", "occlusionTexture"}) {
+    const std::string message = LoadError(file("extensionsRequired", name), ErrorCode::Unsupported);
+    EXPECT_NE(message.find("requires " + name + ","), std::string::npos) << message;
+    const LoadReport used = LoadBytes(file("extensionsUsed", name)).report;
+    ASSERT_EQ(used.extensions.size(), 1u);
+    EXPECT_FALSE(used.extensions[0].supported) << name;
+    EXPECT_EQ(used.warnings, std::vector<std::string>{"extensionsUsed: ignored: " + name + " is not supported"});
+  }
+  for (const std::string name : {"KHR_materials_unlit", "KHR_materials_emissive_strength", "KHR_texture_transform"}) {
+    const LoadReport required = LoadBytes(file("extensionsRequired", name)).report;
+    ASSERT_EQ(required.extensions.size(), 1u);
+    EXPECT_TRUE(required.extensions[0].supported) << name;
+    EXPECT_TRUE(required.warnings.empty()) << name;
+  }
+}
+
 }  // namespace
 }  // namespace facet

@@ -100,6 +100,21 @@ TEST(FramePlan, EachFeatureIsThereWhenSomethingNeedsIt) {
                       "environment light"));
 }
 
+TEST(FramePlan, ANormalTextureWithoutAPictureNeedsNoTangents) {
+  Scene scene = LitSphere();
+  scene.textures.emplace_back();
+  scene.materials[0].normal_texture = Ref(0);
+  const FramePlan plan = PlanOf(scene, StudioSettings());
+  ASSERT_EQ(plan.materials.size(), 1u);
+  EXPECT_FALSE(plan.materials[0].frame.Has(kTangentSpaceBits));
+  EXPECT_EQ(plan.materials[0].frame.uv_slots, 0);
+  const auto left_out = [&](const char* line) {
+    return std::find(plan.left_out.begin(), plan.left_out.end(), line) != plan.left_out.end();
+  };
+  EXPECT_TRUE(left_out("tangents: no normal texture is read"));
+  EXPECT_TRUE(LeftOut(plan, "normal textures"));
+}
+
 TEST(FramePlan, TexturesAreSharedByRoleAndUvSetsByNumber) {
   Scene scene = LitSphere();
   Material& m = scene.materials[0];

@@ -178,6 +178,38 @@ TEST(Contract, APictureThatCannotBeDecodedIsAWarning) {
   for (const glm::vec4& pixel : film.pixels) ASSERT_EQ(pixel, glm::vec4(0.25f, 0.5f, 1.0f, 1.0f));
 }
 
+// Whether the materials that it shades need tangents.
+class TangentSpaceSeen : public FragmentShader {
+ public:
+  void Shade(const ShadeTask& task) const override {
+    (task.material->Has(kTangentSpaceBits) ? with : without) += task.count;
+    std::fill_n(task.red, task.count, 0.0f);
+    std::fill_n(task.green, task.count, 0.0f);
+    std::fill_n(task.blue, task.count, 0.0f);
+    std::fill_n(task.alpha, task.count, 1.0f);
+  }
+  mutable std::atomic<std::uint64_t> with{0}, without{0};
+};
+
+TEST(Contract, ANormalTextureThatCannotBeDecodedNeedsNoTangents) {
+  for (const bool broken : {false, true}) {
+    Scene scene;
+    Material material;
+    material.base_color_factor = {0.5f, 0.5f, 0.5f, 1.0f};  // white reflects all light, wherever its normal points
+    Add(scene, Rectangle(-1, -1, 1, 1), AddMaterial(scene, material));
+    RenderSettings settings = Settings(8, 8, 1, Orthographic(1.0));
+    settings.environment = ConstantEnvironment(1.0f);
+    const Film smooth = Render(scene, settings);
+    scene.materials[0].normal_texture = Ref(AddTexture(scene, std::make_shared<CountedSource>(broken)));
+    EXPECT_EQ(SameBytes(Render(scene, settings), smooth), broken);
+    const TangentSpaceSeen shader;
+    settings.shader = &shader;
+    Render(scene, settings);
+    EXPECT_EQ(shader.with, broken ? 0u : 64u);
+    EXPECT_EQ(shader.without, broken ? 64u : 0u);
+  }
+}
+
 // A source of one's own may hand over nonsense.
 TEST(Contract, APictureWhoseBytesDoNotFitItsSizeIsAWarning) {
   const std::function<void(Image&)> spoil[] = {
