@@ -237,6 +237,8 @@ TEST(Container, OnlyExtensionsAreSupportedExtensions) {
     EXPECT_FALSE(used.extensions[0].supported) << name;
     EXPECT_EQ(used.warnings, std::vector<std::string>{"extensionsUsed: ignored: " + name + " is not supported"});
   }
+  const std::string unnamed = LoadError(file("extensionsRequired", ""), ErrorCode::Unsupported);
+  EXPECT_NE(unnamed.find(R"(requires "",)"), std::string::npos) << unnamed;
   for (const std::string name : {"KHR_materials_unlit", "KHR_materials_emissive_strength", "KHR_texture_transform"}) {
     const LoadReport required = LoadBytes(file("extensionsRequired", name)).report;
     ASSERT_EQ(required.extensions.size(), 1u);
