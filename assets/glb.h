@@ -28,7 +28,7 @@ class Glb {
   int AddFloats(const std::vector<float>& values, int width, bool bounds = false, int target = 0);
   int AddIndices(const std::vector<std::uint32_t>& indices);
   int AddJoints(const std::vector<std::array<std::uint8_t, 4>>& joints);
-  // A PNG picture, repeated and filtered trilinearly; returns the texture's index.
+  // A PNG image, repeated and filtered trilinearly; returns the texture's index.
   int AddTexture(const std::string& name, const std::vector<std::uint8_t>& png);
   // A primitive of all attributes that `shape` has.
   Json MakePrimitive(const Shape& shape, int material);

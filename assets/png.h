@@ -1,4 +1,4 @@
-// A PNG encoder of the generator's own: its bytes depend on the picture alone, not on a library's version.
+// A PNG encoder of the generator's own: its bytes depend on the image alone, not on a library's version.
 #pragma once
 
 #include <cstdint>

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "facet/shader/elementary_double.h"
-#include "picture.h"
+#include "image.h"
 #include "scenes.h"
 
 namespace facet::assets {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "facet/shader/elementary_double.h"
-#include "picture.h"
+#include "image.h"
 #include "scenes.h"
 #include "showcase_textures.h"
 
@@ -31,7 +31,7 @@ Json Textured(Glb& glb, const char* name, const std::vector<std::uint8_t>& color
   return material;
 }
 
-// A material with normal and occlusion maps; occlusion shares the picture of metalness and roughness.
+// A material with normal and occlusion maps; occlusion shares the image of metalness and roughness.
 int AddRelief(Glb& glb, const char* name, const std::vector<std::uint8_t>& color,
               const std::vector<std::uint8_t>& normal, const std::vector<std::uint8_t>& orm, double normal_scale) {
   Json material = Textured(glb, name, color, orm);
@@ -69,7 +69,7 @@ void AddFloor(Glb& glb) {
   glb.AddRootNode({{"name", "rim"}, {"mesh", glb.AddMesh("rim", edge, rim)}});
 }
 
-// UV in metres would show little of a picture on parts this small.
+// UV in metres would show little of an image on parts this small.
 Shape ScaleUvs(Shape shape, double scale) {
   for (Vec2& uv : shape.uvs) uv = {uv.x * scale, uv.y * scale};
   return shape;

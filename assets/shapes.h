@@ -1,5 +1,5 @@
 // Triangle meshes of simple solids. Metres, right-handed, +Y up, counter-clockwise seen from outside; UV (0, 0) is the
-// top left of a picture.
+// top left of an image.
 #pragma once
 
 #include <array>

@@ -5,14 +5,14 @@
 #include <cmath>
 
 #include "facet/shader/elementary_double.h"
-#include "picture.h"
+#include "image.h"
 
 namespace facet::assets {
 namespace {
 
-// --- Tiles -----------------------------------------------------------------------------------------------------------
+// --- Tiles ----------------------------------------------------------------------------------------------------------
 
-constexpr int kTilesPerPicture = 4;
+constexpr int kTilesPerImage = 4;
 
 struct TilePoint {
   int column = 0, row = 0;
@@ -20,7 +20,7 @@ struct TilePoint {
 };
 
 TilePoint TileAt(double u, double v) {
-  const double x = (u - std::floor(u)) * kTilesPerPicture, y = (v - std::floor(v)) * kTilesPerPicture;
+  const double x = (u - std::floor(u)) * kTilesPerImage, y = (v - std::floor(v)) * kTilesPerImage;
   TilePoint point{int(x), int(y), 0};
   const double radius = 0.1;
   const double dx = std::fabs(x - point.column - 0.5), dy = std::fabs(y - point.row - 0.5);
@@ -39,14 +39,14 @@ double TileHeight(double u, double v) {
   // Each tile lies a little askew, as a mason leaves it.
   const double tilt_x = (Hash(point.column, point.row, 21) - 0.5) * 0.016;
   const double tilt_y = (Hash(point.column, point.row, 22) - 0.5) * 0.016;
-  const double x = u * kTilesPerPicture - std::floor(u * kTilesPerPicture) - 0.5;
-  const double y = v * kTilesPerPicture - std::floor(v * kTilesPerPicture) - 0.5;
+  const double x = u * kTilesPerImage - std::floor(u * kTilesPerImage) - 0.5;
+  const double y = v * kTilesPerImage - std::floor(v * kTilesPerImage) - 0.5;
   const double glaze = 0.003 * PeriodicFractal(u, v, 16, 2, 0.5, 5);
   const double sand = 0.004 * PeriodicNoise(u * 128, v * 128, 128, 9);
-  return (rise * (0.035 + tilt_x * x + tilt_y * y + glaze) + (1 - rise) * sand) / kTilesPerPicture;
+  return (rise * (0.035 + tilt_x * x + tilt_y * y + glaze) + (1 - rise) * sand) / kTilesPerImage;
 }
 
-// --- Stone -----------------------------------------------------------------------------------------------------------
+// --- Stone ----------------------------------------------------------------------------------------------------------
 
 double StoneHeight(double u, double v) {
   const double rough = PeriodicFractal(u, v, 8, 5, 0.52, 40);
@@ -65,7 +65,7 @@ double Lichen(double u, double v) {
          SmoothStep(-0.3, 0.4, PeriodicFractal(u, v, 32, 2, 0.5, 90));
 }
 
-// --- Metal -----------------------------------------------------------------------------------------------------------
+// --- Metal ----------------------------------------------------------------------------------------------------------
 
 double Verdigris(double u, double v) { return 0.9 * SmoothStep(0.25, 0.95, PeriodicFractal(u, v, 4, 6, 0.6, 120)); }
 
@@ -73,7 +73,7 @@ double Chipped(double u, double v) {
   return SmoothStep(0.52, 0.58, PeriodicFractal(u, v, 6, 5, 0.58, 150) + 0.1 * PeriodicNoise(u * 64, v * 64, 64, 155));
 }
 
-// --- Leaf ------------------------------------------------------------------------------------------------------------
+// --- Leaf -----------------------------------------------------------------------------------------------------------
 
 // Half the leaf's width at height t from the stalk (0) to the tip (1), with a serrated edge.
 double LeafHalfWidth(double t) {
@@ -86,7 +86,7 @@ double LeafHalfWidth(double t) {
 }  // namespace
 
 std::vector<std::uint8_t> TileColor() {
-  return Picture(512, [](double u, double v) {
+  return PngImage(512, [](double u, double v) {
     const TilePoint point = TileAt(u, v);
     const bool dark = (point.column + point.row) % 2 != 0;
     const double shade = (Hash(point.column, point.row, 3) - 0.5) * 0.09;
@@ -101,7 +101,7 @@ std::vector<std::uint8_t> TileColor() {
 std::vector<std::uint8_t> TileNormal() { return NormalMap(512, TileHeight); }
 
 std::vector<std::uint8_t> TileOrm() {
-  return Picture(256, [](double u, double v) {
+  return PngImage(256, [](double u, double v) {
     const TilePoint point = TileAt(u, v);
     const double on = OnTile(point), occlusion = 0.45 + 0.55 * SmoothStep(0.0, kGrout + kBevel, point.edge);
     const double polish = 0.2 + 0.1 * Hash(point.column, point.row, 4) + 0.06 * PeriodicFractal(u, v, 8, 3, 0.5, 11);
@@ -110,7 +110,7 @@ std::vector<std::uint8_t> TileOrm() {
 }
 
 std::vector<std::uint8_t> StoneColor() {
-  return Picture(256, [](double u, double v) {
+  return PngImage(256, [](double u, double v) {
     const double grain = PeriodicFractal(u, v, 16, 4, 0.7, 45);
     Vec3 color = Mix({0.36, 0.35, 0.34}, {0.62, 0.59, 0.55}, Clamp01(0.5 + 0.45 * grain));
     color = color * (1 - 0.45 * SmoothStep(0.25, 0.8, PeriodicFractal(u, v, 48, 2, 0.6, 47)));  // mica
@@ -122,11 +122,11 @@ std::vector<std::uint8_t> StoneColor() {
 std::vector<std::uint8_t> StoneNormal() { return NormalMap(256, StoneHeight); }
 
 std::vector<std::uint8_t> StoneOrm() {
-  return Picture(256, [](double u, double v) { return Vec3{StoneCavity(u, v), 0.72 + 0.2 * Lichen(u, v), 0}; });
+  return PngImage(256, [](double u, double v) { return Vec3{StoneCavity(u, v), 0.72 + 0.2 * Lichen(u, v), 0}; });
 }
 
 std::vector<std::uint8_t> CopperColor() {
-  return Picture(256, [](double u, double v) {
+  return PngImage(256, [](double u, double v) {
     const double tarnish = 0.5 + 0.5 * PeriodicFractal(u, v, 5, 4, 0.55, 110);
     const Vec3 copper = Mix({0.97, 0.71, 0.57}, {0.72, 0.45, 0.32}, Clamp01(tarnish));
     const double bloom = 0.5 + 0.5 * PeriodicFractal(u, v, 16, 2, 0.6, 112);
@@ -135,14 +135,14 @@ std::vector<std::uint8_t> CopperColor() {
 }
 
 std::vector<std::uint8_t> CopperMetallicRoughness() {
-  return Picture(256, [](double u, double v) {
+  return PngImage(256, [](double u, double v) {
     const double green = Verdigris(u, v), wear = PeriodicFractal(u, v, 8, 3, 0.5, 115);
     return Vec3{1, 0.26 + 0.08 * wear + 0.5 * green, 1 - green};
   });
 }
 
 std::vector<std::uint8_t> PaintColor() {
-  return Picture(256, [](double u, double v) {
+  return PngImage(256, [](double u, double v) {
     const double fade = PeriodicFractal(u, v, 4, 3, 0.5, 140);
     const Vec3 paint = Mix({0.60, 0.09, 0.07}, {0.68, 0.16, 0.10}, Clamp01(0.5 + 0.5 * fade));
     return Mix(paint, {0.80, 0.56, 0.44}, Chipped(u, v));
@@ -150,14 +150,14 @@ std::vector<std::uint8_t> PaintColor() {
 }
 
 std::vector<std::uint8_t> PaintMetallicRoughness() {
-  return Picture(256, [](double u, double v) {
+  return PngImage(256, [](double u, double v) {
     const double chip = Chipped(u, v);
     return Vec3{1, 0.3 + 0.05 * PeriodicFractal(u, v, 8, 2, 0.5, 145) + 0.15 * chip, chip};
   });
 }
 
 std::vector<std::uint8_t> LeafColor() {
-  return PictureWithAlpha(256, [](double u, double v) {
+  return PngImageWithAlpha(256, [](double u, double v) {
     const double t = (0.97 - v) / 0.94, x = u - 0.5;
     const double inside = LeafHalfWidth(t - 0.06) - std::fabs(x);
     const double stalk = t < 0.3 ? 0.014 - std::fabs(x) : -1.0;
@@ -176,7 +176,7 @@ std::vector<std::uint8_t> LeafColor() {
 }
 
 std::vector<std::uint8_t> FlameEmission() {
-  return Picture(64, [](double, double v) {
+  return PngImage(64, [](double, double v) {
     const Vec3 tip{1.0, 0.55, 0.16}, heart{1.0, 0.88, 0.55}, base{0.35, 0.40, 0.85};
     return v < 0.6 ? Mix(tip, heart, SmoothStep(0.0, 0.5, v)) : Mix(heart, base, SmoothStep(0.72, 1.0, v));
   });

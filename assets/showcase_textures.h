@@ -1,4 +1,4 @@
-// The pictures of the showcase. Each returns a PNG.
+// The images of the showcase. Each returns a PNG.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +6,7 @@
 
 namespace facet::assets {
 
-// Glazed tiles in two colours with grout, four by four tiles in a picture. Orm: occlusion, roughness, metalness.
+// Glazed tiles in two colours with grout, four by four tiles in an image. Orm: occlusion, roughness, metalness.
 std::vector<std::uint8_t> TileColor();
 std::vector<std::uint8_t> TileNormal();
 std::vector<std::uint8_t> TileOrm();

@@ -56,15 +56,15 @@ void AppendRunLengths(std::vector<std::uint8_t>& out, const std::vector<std::uin
 }  // namespace
 
 void WriteStudio(const std::filesystem::path& path) {
-  const Image picture = StudioPicture(256, 128);
-  const std::string header = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y " + std::to_string(picture.height) + " +X " +
-                             std::to_string(picture.width) + "\n";
+  const Image image = StudioImage(256, 128);
+  const std::string header = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y " + std::to_string(image.height) + " +X " +
+                             std::to_string(image.width) + "\n";
   std::vector<std::uint8_t> out(header.begin(), header.end());
-  const float* pixel = picture.As<float>();
-  for (int y = 0; y < picture.height; ++y) {
+  const float* pixel = image.As<float>();
+  for (int y = 0; y < image.height; ++y) {
     std::vector<std::uint8_t> planes[4];
-    for (int x = 0; x < picture.width; ++x, pixel += picture.channels) AppendRgbe(planes, pixel);
-    out.insert(out.end(), {2, 2, std::uint8_t(picture.width >> 8), std::uint8_t(picture.width & 255)});
+    for (int x = 0; x < image.width; ++x, pixel += image.channels) AppendRgbe(planes, pixel);
+    out.insert(out.end(), {2, 2, std::uint8_t(image.width >> 8), std::uint8_t(image.width & 255)});
     for (const auto& plane : planes) AppendRunLengths(out, plane);
   }
   std::ofstream stream(path, std::ios::binary);

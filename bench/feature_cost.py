@@ -41,7 +41,7 @@ WITHOUT = {
     "emission": never(5),
     "lighting": never(6),
     "vertex colours": [("src/shade/interpolate-inl.h", r"if \(material\.vertex_colors\)", "if (false)"),
-                       ("src/shade/triangle_setup.cc", r"if \(material\.vertex_colors\)", "if (false)")],
+                       ("src/shade/attribute_setup.cc", r"if \(material\.vertex_colors\)", "if (false)")],
     "skinning": [(POSE, r"if \((settings\.skins && )?node\.skin >= 0", "if (false && node.skin >= 0")],
     "morph targets": [(POSE, r"shape\.morphed = [^;]*;", "shape.morphed = false;")],
     "alpha test": [(TILE, r"if \(!lists\.masked\[t\]\.empty\(\)\) DrawMasked", "if (false) DrawMasked")],

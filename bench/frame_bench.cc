@@ -110,7 +110,7 @@ void FileToFile(benchmark::State& state, const Subject& subject) {
   for (auto _ : state) {
     facet::RenderStats stats;
     const facet::LoadedScene loaded = facet::LoadGltf(subject.path);
-    facet::WriteImage(output, facet::Develop(facet::Render(loaded.scene, Settings(0), &stats), {}));
+    facet::WriteImage(output, facet::EncodeFilm(facet::Render(loaded.scene, Settings(0), &stats), {}));
     totals.Add(stats);
   }
   totals.Report(state);

@@ -18,7 +18,7 @@ import tempfile
 import harness
 
 TRACKED = pathlib.Path(__file__).resolve().parent / "instructions.json"
-STAGES = {"geometry": "RunGeometry", "tiles": "RunTiles", "develop": "DevelopPixels"}
+STAGES = {"geometry": "RunGeometry", "tiles": "RunTiles", "encode": "EncodePixels"}
 SIZE = (512, 512)
 
 

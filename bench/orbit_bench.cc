@@ -1,8 +1,8 @@
 // Steady frames, as an interactive viewer or a turntable draws them: the file is loaded, the camera goes round.
 //   orbit_bench MODEL [HDRI|none|studio [WIDTH HEIGHT [SAMPLES [THREADS [FRAMES [RADIUS [STEP [ANISOTROPY]]]]]]]]
 // STEP: degrees from one frame to the next; 0 draws the same frame again and again, less goes once around.
-// It prints one line of JSON: medians over the frames, in milliseconds, without the first frame. Frames are pictures of
-// 8 bits; the environment is the background where it is a picture.
+// It prints one line of JSON: medians over the frames, in milliseconds, without the first frame. Frames are images of
+// 8 bits; the environment is the background where it is an image.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -56,7 +56,7 @@ int main(int argc, char** argv) try {
   settings.max_anisotropy = std::atoi(argument(10, "8"));
 
   facet::Renderer renderer(loaded.scene);
-  facet::Image picture;
+  facet::Image image;
   std::vector<double> frame_ms, geometry_ms, raster_ms, fragments, covered;
   double triangles = 0.0;
   for (int i = -1; i < frames; ++i) {
@@ -66,7 +66,7 @@ int main(int argc, char** argv) try {
     settings.camera = camera;
     facet::RenderStats stats;
     const double start = Now();
-    renderer.RenderPicture(settings, {}, picture, &stats);
+    renderer.RenderImage(settings, {}, image, &stats);
     const double rendered = Now();
     if (i < 0) continue;
     frame_ms.push_back(rendered - start);

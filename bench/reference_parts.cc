@@ -1,4 +1,4 @@
-// How much a part of the reference's picture tells of the whole: the table of docs/accuracy.md. Nothing here is a time.
+// How much a part of the reference's image tells of the whole: the table of docs/accuracy.md. Nothing here is a time.
 //   reference_parts [--size N] MODEL...
 // The default settings with the studio, against a reference of 2 x 16 samples a pixel; parts of 100 orders of its
 // blocks.
@@ -45,9 +45,9 @@ void PrintScene(const std::filesystem::path& path, int size) {
 
   facet::ReferenceFilm part = whole;
   part.whole = false;
-  const facet::Image developed = facet::Develop(facet::ToFilm(whole), {}), picture = facet::Develop(used, {});
-  const double flip = facet::FlipJudge(whole, developed).Judge(picture).mean;
-  const double flip_by_blocks = facet::FlipJudge(part, developed).Judge(picture).mean;
+  const facet::Image encoded = facet::EncodeFilm(facet::ToFilm(whole), {}), image = facet::EncodeFilm(used, {});
+  const double flip = facet::FlipJudge(whole, encoded).Judge(image).mean;
+  const double flip_by_blocks = facet::FlipJudge(part, encoded).Judge(image).mean;
   for (const double share : {0.03, 0.1, 0.33}) {
     Spread errors, said, ratios;
     for (std::uint64_t seed = 0; seed < 100; ++seed) {

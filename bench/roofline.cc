@@ -7,11 +7,12 @@
 //   texels       each fragment's footprint, trilinear and along its major axis, read as if all textures of the material
 //                lay in one texel of 16 bytes: in the order of the frame, from squares of 4 x 4 texels
 //   tables       prefiltered environment (two levels), irradiance, albedo tables: 16 reads of 16 bytes in the cache
-//   arithmetic   as many additions and multiplications, divisions and roots as facet's shader does for a fragment, counted
-//                by running it on numbers that count; in lanes, none waiting for another. Addresses are not counted, nor is
-//                the weighing of texels, which is done in integers
-//   background   four pixels of the picture for each pixel that the model leaves free, and the arithmetic of its direction
-//   film         16 bytes a pixel, written once
+//   arithmetic   as many additions and multiplications, divisions and roots as facet's shader does for a fragment,
+//   counted
+//                by running it on numbers that count; in lanes, none waiting for another. Addresses are not counted,
+//                nor is the weighing of texels, which is done in integers
+//   background   four pixels of the image for each pixel that the model leaves free, and the arithmetic of its
+//   direction film         16 bytes a pixel, written once
 // Nothing is counted for vertices, triangle set-up and visibility. Each part is timed alone (the least of the repeats)
 // with one and two threads; their sum is what the frame is measured against.
 #include <algorithm>
@@ -198,14 +199,13 @@ int Main(int argc, char** argv) {
   const OperationCounts shading = mean(recorder.shading), background = mean(recorder.background);
   const std::size_t pixels = film.pixels.size(), covered = recorder.fragments;
   const std::size_t free_pixels = pixels - std::min(pixels, covered);  // right for opaque models
-  const Image& picture = *settings.environment.image;
-  const std::size_t picture_width = std::size_t(picture.width),
-                    picture_pixels = picture_width * std::size_t(picture.height);
+  const Image& image = *settings.environment.image;
+  const std::size_t image_width = std::size_t(image.width), image_pixels = image_width * std::size_t(image.height);
   constexpr int kTableBits = 16;  // 1 MiB
-  std::vector<std::int32_t> table(std::size_t{4} << kTableBits, 1), panorama(picture_pixels * 4, 1);
+  std::vector<std::int32_t> table(std::size_t{4} << kTableBits, 1), panorama(image_pixels * 4, 1);
   std::vector<float> target(pixels * 4, 0.0f);
-  // A picture's pixel of the panorama is as wide as so many of the frame.
-  const float enlarged = float(settings.height) / (45.0f / 180.0f * float(picture.height));
+  // An image's pixel of the panorama is as wide as so many of the frame.
+  const float enlarged = float(settings.height) / (45.0f / 180.0f * float(image.height));
 
   std::printf("%zu fragments, %zu pixels of background, %.2f taps a fragment (of 2 x 2 texels)\n", covered, free_pixels,
               double(recorder.taps.size()) / double(std::max<std::size_t>(covered, 1)));
@@ -234,7 +234,7 @@ int Main(int argc, char** argv) {
       {"background: reads",
        [&](int t, int n) {
          return double(
-             ReadPicture(panorama.data(), picture_pixels, picture_width, share(free_pixels, t, n).second, enlarged));
+             ReadImage(panorama.data(), image_pixels, image_width, share(free_pixels, t, n).second, enlarged));
        }},
       {"background: arithmetic",
        [&](int t, int n) { return double(Compute(background, share(free_pixels, t, n).second)); }},

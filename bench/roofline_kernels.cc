@@ -55,13 +55,13 @@ std::int64_t TableKernel(const std::int32_t* table, int bits, std::size_t count,
   return reader.Sum();
 }
 
-std::int64_t PictureKernel(const std::int32_t* picture, std::size_t pixels, std::size_t width, std::size_t count,
-                           float scale) {
+std::int64_t ImageKernel(const std::int32_t* image, std::size_t pixels, std::size_t width, std::size_t count,
+                         float scale) {
   Reader reader;
   const std::size_t last = pixels - width - 2;
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t at = std::size_t(float(i) / (scale * scale));
-    const std::int32_t* p = picture + (at < last ? at : last) * 4;
+    const std::int32_t* p = image + (at < last ? at : last) * 4;
     reader.Read(p);
     reader.Read(p + 4);
     reader.Read(p + 4 * width);
@@ -120,7 +120,7 @@ namespace facet {
 
 FACET_EXPORT(TapsKernel);
 FACET_EXPORT(TableKernel);
-FACET_EXPORT(PictureKernel);
+FACET_EXPORT(ImageKernel);
 FACET_EXPORT(ComputeKernel);
 FACET_EXPORT(PixelsKernel);
 
@@ -131,9 +131,9 @@ std::int64_t ReadTaps(const std::uint32_t* taps, std::size_t count, const std::i
 std::int64_t ReadTable(const std::int32_t* table, int bits, std::size_t count, int reads) {
   return FACET_DISPATCH(TableKernel)(table, bits, count, reads);
 }
-std::int64_t ReadPicture(const std::int32_t* picture, std::size_t pixels, std::size_t width, std::size_t count,
-                         float scale) {
-  return FACET_DISPATCH(PictureKernel)(picture, pixels, width, count, scale);
+std::int64_t ReadImage(const std::int32_t* image, std::size_t pixels, std::size_t width, std::size_t count,
+                       float scale) {
+  return FACET_DISPATCH(ImageKernel)(image, pixels, width, count, scale);
 }
 float Compute(const OperationCounts& of_each, std::size_t fragments) {
   return FACET_DISPATCH(ComputeKernel)(of_each, fragments);

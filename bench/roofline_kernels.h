@@ -22,10 +22,10 @@ std::int64_t ReadTaps(const std::uint32_t* taps, std::size_t count, const std::i
 // the last one: maps and tables that stay in the cache.
 std::int64_t ReadTable(const std::int32_t* table, int bits, std::size_t count, int reads);
 
-// Reads 2 x 2 pixels of 16 bytes for each of `count` pixels that walk along the rows of a picture, `width` pixels wide
+// Reads 2 x 2 pixels of 16 bytes for each of `count` pixels that walk along the rows of an image, `width` pixels wide
 // and enlarged `scale` times.
-std::int64_t ReadPicture(const std::int32_t* picture, std::size_t pixels, std::size_t width, std::size_t count,
-                         float scale);
+std::int64_t ReadImage(const std::int32_t* image, std::size_t pixels, std::size_t width, std::size_t count,
+                       float scale);
 
 // That many operations for each of `fragments`, a lane each, none waiting for another.
 float Compute(const OperationCounts& of_each, std::size_t fragments);

@@ -14,7 +14,7 @@ int main(int argc, char** argv) {
     settings.height = 480;
     settings.shader = toon.get();
     facet::RenderStats stats;
-    facet::WriteImage(argv[2], facet::Develop(facet::Render(loaded.scene, settings, &stats), {}));
+    facet::WriteImage(argv[2], facet::EncodeFilm(facet::Render(loaded.scene, settings, &stats), {}));
     std::printf("%llu pixels covered\n", static_cast<unsigned long long>(stats.covered_pixels));
   } catch (const facet::Error& error) {
     std::fprintf(stderr, "%s\n", error.what());

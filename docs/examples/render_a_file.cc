@@ -17,7 +17,7 @@ int main(int argc, char** argv) {
 
     facet::DisplaySettings display;
     display.background_srgb = glm::vec3(1.0f);
-    facet::WriteImage(argv[2], facet::Develop(film, display));
+    facet::WriteImage(argv[2], facet::EncodeFilm(film, display));
     std::printf("%llu pixels covered\n", static_cast<unsigned long long>(stats.covered_pixels));
   } catch (const facet::Error& error) {
     std::fprintf(stderr, "%s\n", error.what());

@@ -54,7 +54,7 @@ struct Explanation {
   bool environment_light = false, environment_background = false;
   std::vector<PlaneKind> planes;  // of the film, besides colour
   std::string environment;        // "studio", "WxH", or empty
-  RenderStats first;              // of the first frame; `left_out` says what is disabled and why
+  RenderStats first;              // of the first frame; `disabled` says what is disabled and why
   RenderStats steady;             // of a later frame with the same settings
   int frames = 0;
   double steady_seconds = 0;  // median over `frames`

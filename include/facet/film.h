@@ -43,6 +43,6 @@ struct DisplaySettings {
 // Applies exposure, tone curve, background and sRGB encoding. With `type` U8 or U16 the image is sRGB; with F32 it is
 // linear, exposed but not tone-mapped, and composited over the background, if there is one, in linear light. The image
 // has 4 channels with straight alpha, or 3 if a background makes every pixel opaque.
-Image Develop(const Film& film, const DisplaySettings& settings, ChannelType type = ChannelType::U8);
+Image EncodeFilm(const Film& film, const DisplaySettings& settings, ChannelType type = ChannelType::U8);
 
 }  // namespace facet

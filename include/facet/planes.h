@@ -1,5 +1,4 @@
-// Planes that a film may have besides colour: one or more numbers a pixel that say something else of what is seen
-// there.
+// Planes of a film besides colour: for each pixel one or more components that describe the surface that is seen there.
 #pragma once
 
 #include <cstddef>
@@ -10,11 +9,11 @@
 
 namespace facet {
 
-// All of them speak of a pixel's nearest sample of opaque or alpha-tested surfaces, the first of those that are equally
-// near. What is blended does not show in them, and the background is nothing.
+// Every plane describes the nearest sample of a pixel: of equally near samples, the first. Only opaque and alpha-tested
+// surfaces count. Blended surfaces and the background are not seen.
 enum class PlaneKind : std::uint8_t {
-  Depth,     // distance along the camera's axis in metres; +infinity where there is nothing
-  Triangle,  // number of the triangle, line or point within its primitive; 0xffffffff where there is nothing
+  Depth,     // distance along the camera's axis in metres; +infinity where no surface is seen
+  Triangle,  // index of the triangle, line or point within its primitive; 0xffffffff where no surface is seen
 };
 
 enum class PlaneType : std::uint8_t { F32, U32 };
@@ -24,22 +23,22 @@ constexpr std::string_view NameOf(PlaneType type) { return type == PlaneType::F3
 struct PlaneInfo {
   PlaneKind kind;
   std::string_view name;
-  int channels;  // numbers a pixel
+  int channels;  // components of a pixel
   PlaneType type;
   std::string_view meaning;  // with its unit
 
   constexpr std::size_t PixelBytes() const { return std::size_t(channels) * SizeOf(type); }
 };
 
-// All that there are, in the order of PlaneKind.
+// All planes, in the order of PlaneKind.
 inline constexpr PlaneInfo kPlanes[] = {
     {PlaneKind::Depth, "depth", 1, PlaneType::F32, "distance along the camera's axis, metres"},
-    {PlaneKind::Triangle, "triangle", 1, PlaneType::U32, "number of the triangle, line or point within its primitive"},
+    {PlaneKind::Triangle, "triangle", 1, PlaneType::U32, "index of the triangle, line or point within its primitive"},
 };
 
 constexpr const PlaneInfo& InfoOf(PlaneKind kind) { return kPlanes[std::size_t(kind)]; }
 
-// By name; null: there is none.
+// The plane with this name; null if there is none.
 constexpr const PlaneInfo* FindPlane(std::string_view name) {
   for (const PlaneInfo& info : kPlanes) {
     if (info.name == name) return &info;
@@ -63,7 +62,7 @@ struct Plane {
   PlaneKind kind = PlaneKind::Depth;
   std::vector<std::byte> bytes;
 
-  // The numbers; T is the plane's type: float or std::uint32_t.
+  // The components; T is the plane's type: float or std::uint32_t.
   template <class T>
   std::span<const T> As() const {
     static_assert(sizeof(T) == SizeOf(PlaneType::F32));

@@ -15,7 +15,7 @@
 
 namespace facet {
 
-// --- Statistics ------------------------------------------------------------------------------------------------------
+// --- Statistics -----------------------------------------------------------------------------------------------------
 
 // A texture that the frame reads, as it is stored.
 struct TextureStats {
@@ -26,7 +26,7 @@ struct TextureStats {
   int channels = 0;       // only those that are read are stored
   int bits = 0;           // per channel
   std::size_t bytes = 0;  // of all levels
-  double dark = 0.0;      // emission textures: the share of the texture that is empty, which means black with black
+  double empty = 0.0;     // emission textures: the share of the texture that is empty, which means black with black
                           // all around it. It is not read unless minified much, and takes no memory if it is large
 };
 
@@ -56,7 +56,7 @@ struct RenderStats {
   double camera_target_distance = 1.0;     // AutoCamera and OrbitCamera: the distance of the target; others: 1
   std::string target;                      // instruction set: SCALAR, SSE4, AVX2 or AVX3
   int threads = 0;
-  std::vector<std::string> left_out;  // what was disabled because it was not needed, one line each: "WHAT: WHY"
+  std::vector<std::string> disabled;  // what was disabled because it was not needed, one line each: "WHAT: WHY"
   std::vector<std::string> warnings;  // images that could not be decoded, why nothing is visible or lit
 };
 
@@ -89,12 +89,12 @@ class Renderer {
   // thread-safe.
   void Render(const RenderSettings& settings, Film& film, RenderStats* stats = nullptr);
 
-  // Renders into an image: the same bytes as Develop() of the film of Render(). Each tile is tone-mapped and encoded
+  // Renders into an image: the same bytes as EncodeFilm() of the film of Render(). Each tile is tone-mapped and encoded
   // while it is in the first-level cache, so that no film is stored, which would take 16 bytes a pixel. The memory of
-  // `picture` is reused. Throws what Render() and Develop() do, and
+  // `image` is reused. Throws what Render() and EncodeFilm() do, and
   // Error(InvalidUsage) for settings.planes, which an image does not have; then it leaves no usable image.
-  void RenderPicture(const RenderSettings& settings, const DisplaySettings& display, Image& picture,
-                     RenderStats* stats = nullptr, ChannelType type = ChannelType::U8);
+  void RenderImage(const RenderSettings& settings, const DisplaySettings& display, Image& image,
+                   RenderStats* stats = nullptr, ChannelType type = ChannelType::U8);
 
   // As RenderBands().
   void RenderBands(const RenderSettings& settings, int max_rows, const BandReceiver& receive,

@@ -57,7 +57,7 @@ struct ReportPoint {
   std::size_t peak_bytes = 0;  // peak growth of the process while rendering; 0: not known
   FilmError error;
   bool pareto = false;                   // no other point has both less error (relative RMSE) and less time
-  std::vector<std::byte> picture_png;    // the encoded image
+  std::vector<std::byte> image_png;      // the encoded image
   std::vector<std::byte> error_map_png;  // FLIP against the reference, as a heat map
 };
 

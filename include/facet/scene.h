@@ -121,7 +121,7 @@ struct Skin {
   std::vector<glm::mat4> inverse_bind;       // empty: identities; otherwise joints.size()
 };
 
-// --- Nodes, cameras, lights -------------------------------------------------------------------------------------------
+// --- Nodes, cameras, lights -----------------------------------------------------------------------------------------
 
 struct Camera {
   std::string name;
@@ -163,7 +163,7 @@ struct Node {
   std::vector<Transform> instances;  // EXT_mesh_gpu_instancing; empty: the mesh once
 };
 
-// --- Animation -------------------------------------------------------------------------------------------------------
+// --- Animation ------------------------------------------------------------------------------------------------------
 
 enum class AnimationPath : std::uint8_t { Translation, Rotation, Scale, Weights };
 enum class Interpolation : std::uint8_t { Linear, Step, CubicSpline };
@@ -185,7 +185,7 @@ struct Animation {
   std::vector<AnimationChannel> channels;
 };
 
-// --- The whole ---------------------------------------------------------------------------------------------------------
+// --- The whole ------------------------------------------------------------------------------------------------------
 
 struct SceneRoots {
   std::string name;

@@ -20,7 +20,7 @@ namespace facet {
 class FragmentShader;     // facet/shader.h
 class EnvironmentSource;  // OpenEnvironment() of facet/load.h makes one
 
-// --- Camera ----------------------------------------------------------------------------------------------------------
+// --- Camera ---------------------------------------------------------------------------------------------------------
 
 // Frames the scene's bounds from the front, a little above.
 struct AutoCamera {
@@ -50,7 +50,7 @@ struct FreeCamera {
 
 using CameraChoice = std::variant<AutoCamera, OrbitCamera, SceneCamera, FreeCamera>;
 
-// --- Light -----------------------------------------------------------------------------------------------------------
+// --- Light ----------------------------------------------------------------------------------------------------------
 
 // Image-based lighting. The image is equirectangular: its centre column lies towards +X, and +Z is a quarter of the
 // width to the right of it (docs/conventions.md).
@@ -65,7 +65,7 @@ struct EnvironmentSettings {
 
 enum class Background : std::uint8_t { Transparent, Environment };
 
-// --- Approximations --------------------------------------------------------------------------------------------------
+// --- Approximations -------------------------------------------------------------------------------------------------
 
 // Precision of stored textures. Mixed: colours have 16 bits of linear light per channel, other data the 8 (or 16) bits
 // of the file.
@@ -80,7 +80,7 @@ enum class IrradianceMethod : std::uint8_t { Convolution, SphericalHarmonics };
 // those that MikkTSpace generates.
 enum class TangentSource : std::uint8_t { File, Generated };
 
-// --- Features --------------------------------------------------------------------------------------------------------
+// --- Features -------------------------------------------------------------------------------------------------------
 
 // Features of a scene that can be disabled. Bits of a mask.
 enum class Feature : std::uint32_t {
@@ -113,7 +113,7 @@ class FeatureSet {
   std::uint32_t bits_ = 0;
 };
 
-// --- Settings --------------------------------------------------------------------------------------------------------
+// --- Settings -------------------------------------------------------------------------------------------------------
 
 struct RenderSettings {
   int width = 1024;                          // 1 to 16384

@@ -17,20 +17,20 @@ struct TileRange {
 };
 
 // Whether the triangle lies in one tile: its vertices' coordinates differ only in the bits below the tile's index.
-bool InOneTile(int tile_bits_fx8, const TriangleRecord& r) {
+bool InOneTile(int tile_bits_fx8, const ScreenTriangle& r) {
   const std::int32_t x = (r.x_fx8[0] ^ r.x_fx8[1]) | (r.x_fx8[0] ^ r.x_fx8[2]);
   const std::int32_t y = (r.y_fx8[0] ^ r.y_fx8[1]) | (r.y_fx8[0] ^ r.y_fx8[2]);
   return (x | y) >> tile_bits_fx8 == 0;
 }
 
-TileRange TilesOf(const TileGrid& grid, int tile_bits_fx8, const TriangleRecord& r) {
+TileRange TilesOf(const TileGrid& grid, int tile_bits_fx8, const ScreenTriangle& r) {
   return {std::max(LeastOf(r.x_fx8) >> tile_bits_fx8, 0), std::max(LeastOf(r.y_fx8) >> tile_bits_fx8, 0),
           std::min(GreatestOf(r.x_fx8) >> tile_bits_fx8, grid.columns - 1),
           std::min(GreatestOf(r.y_fx8) >> tile_bits_fx8, grid.rows - 1)};
 }
 
 // False if the whole tile lies outside of one edge. Conservative, as it tests the tile's corners.
-bool MayTouch(const TileGrid& grid, const TriangleRecord& r, int tile_x, int tile_y) {
+bool MayTouch(const TileGrid& grid, const ScreenTriangle& r, int tile_x, int tile_y) {
   const std::int64_t size = std::int64_t{grid.tile_size} * kSubpixelScale;
   const std::int64_t left = tile_x * size, top = tile_y * size;
   for (int i = 0; i < 3; ++i) {
@@ -92,7 +92,7 @@ void BinChunk(const TileGrid& grid, TriangleChunk& chunk) {
   EntryCharge charge;
   entries.reserve(chunk.records.size() + chunk.records.size() / 4);
   for (std::uint32_t i = 0; i < chunk.records.size(); ++i) {
-    const TriangleRecord& r = chunk.records[i];
+    const ScreenTriangle& r = chunk.records[i];
     if (InOneTile(tile_bits_fx8, r)) {
       const int x = r.x_fx8[0] >> tile_bits_fx8, y = r.y_fx8[0] >> tile_bits_fx8;
       if (x >= 0 && y >= 0 && x < grid.columns && y < grid.rows) {
@@ -123,9 +123,9 @@ void BinChunk(const TileGrid& grid, TriangleChunk& chunk) {
   // With scattered records, tiles would spend more time waiting for memory than computing.
   constexpr std::uint32_t kNowhere = ~0u;
   std::vector<std::uint32_t> place(chunk.records.size(), kNowhere);
-  std::vector<TriangleRecord> ordered;
+  std::vector<ScreenTriangle> ordered;
   ordered.reserve(chunk.records.size());
-  const TriangleRecord* records = chunk.records.data();
+  const ScreenTriangle* records = chunk.records.data();
   std::uint32_t count = 0;  // the size of `ordered`, since size() needs a division
   const auto put = [&](std::uint32_t record) {
     std::uint32_t& at = place[record];
@@ -146,7 +146,7 @@ void BinChunk(const TileGrid& grid, TriangleChunk& chunk) {
   chunk.records.swap(ordered);
   chunk.begin.push_back(static_cast<std::uint32_t>(entries.size()));
   MemoryBudget::Current().Charge(
-      chunk.records.size() * sizeof(TriangleRecord) +
+      chunk.records.size() * sizeof(ScreenTriangle) +
           (chunk.entries.size() + chunk.tiles.size() + chunk.begin.size()) * sizeof(std::uint32_t),
       1, kTileListsCharge);
 }

@@ -15,7 +15,7 @@ void Compositor::ByPixel::Fill(const FragmentList& list, std::size_t pixel_count
 
 template <int kSamples>
 void Compositor::Composite(const TileBuffers& tile, const ShadedFragments& opaque, const ShadedFragments& blended,
-                           std::span<const TriangleRecord* const> records, const std::vector<glm::vec4>& background,
+                           std::span<const ScreenTriangle* const> records, const std::vector<glm::vec4>& background,
                            std::vector<glm::vec4>& pixels) {
   const int samples = tile.Samples<kSamples>();
   const std::size_t pixel_count = pixels.size();
@@ -47,7 +47,7 @@ void Compositor::Composite(const TileBuffers& tile, const ShadedFragments& opaqu
         const std::uint32_t i = layers_of_.order[k];
         if (blended.list.samples[i] >> s & 1) layers_.push_back({DepthAt(planes_[k - begin], sample_x, sample_y), i});
       }
-      // Fragment numbers follow submission order, so this is a stable sort without its memory.
+      // Indices of fragments follow submission order, so this sorts stably, without the memory of a stable sort.
       if (layers_.size() > 1) {
         std::sort(layers_.begin(), layers_.end(), [](const Layer& a, const Layer& b) {
           return a.depth != b.depth ? a.depth < b.depth : a.fragment < b.fragment;
@@ -65,7 +65,7 @@ void Compositor::Composite(const TileBuffers& tile, const ShadedFragments& opaqu
 }
 
 void Compositor::Run(const TileBuffers& tile, const ShadedFragments& opaque, const ShadedFragments& blended,
-                     std::span<const TriangleRecord* const> records, const std::vector<glm::vec4>& background,
+                     std::span<const ScreenTriangle* const> records, const std::vector<glm::vec4>& background,
                      std::vector<glm::vec4>& pixels) {
   if (tile.samples == 1) {
     Composite<1>(tile, opaque, blended, records, background, pixels);

@@ -1,4 +1,5 @@
-// Transparency, exact: per sample, every blended fragment in front of the opaque surface, from back to front.
+// The blend stage. Transparency is exact: at each sample, every blended fragment in front of the opaque surface is
+// composited, from back to front.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -12,22 +13,21 @@ namespace facet {
 // Keeps its working memory from tile to tile. Not thread-safe: one per worker.
 class Compositor {
  public:
-  // Replaces, in `pixels` (tile_size a row), those that blended fragments touch. Each sample starts from the opaque
-  // fragment that covers it, or from `background`, and the fragments that cover it are laid over
-  // it in the order of their depth at that very sample, so that surfaces that cut through each other come out right. At
-  // equal depth the later triangle lies over the earlier. `opaque`: in the order of VisibleFragments. `records`: by
-  // number in the tile.
+  // Replaces those of `pixels` (tile_size a row) that blended fragments cover. Each sample starts with the opaque fragment
+  // that covers it, or with `background`. The blended fragments are composited over it in the order of their depth at
+  // that very sample, so that intersecting surfaces are right. At equal depth the later triangle is in front. `opaque`:
+  // in the order of VisibleFragments. `records`: by id in the tile.
   void Run(const TileBuffers& tile, const ShadedFragments& opaque, const ShadedFragments& blended,
-           std::span<const TriangleRecord* const> records, const std::vector<glm::vec4>& background,
+           std::span<const ScreenTriangle* const> records, const std::vector<glm::vec4>& background,
            std::vector<glm::vec4>& pixels);
 
  private:
   template <int kSamples>
   void Composite(const TileBuffers& tile, const ShadedFragments& opaque, const ShadedFragments& blended,
-                 std::span<const TriangleRecord* const> records, const std::vector<glm::vec4>& background,
+                 std::span<const ScreenTriangle* const> records, const std::vector<glm::vec4>& background,
                  std::vector<glm::vec4>& pixels);
 
-  // Fragments by pixel: those of pixel p are order[first[p]] to order[first[p + 1] - 1], in their list's order.
+  // Fragments by pixel: those of pixel p are order[first[p]] to order[first[p + 1] - 1], in the order of their list.
   struct ByPixel {
     std::vector<std::uint32_t> first, next, order;
     void Fill(const FragmentList& list, std::size_t pixel_count);

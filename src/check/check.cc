@@ -171,7 +171,7 @@ class Check {
       result_.verdict = Verdict::Passed;
       return;
     }
-    const Image actual = Develop(film, entry_.request.display, entry_.request.type);
+    const Image actual = EncodeFilm(film, entry_.request.display, entry_.request.type);
     film = {};
     const std::optional<Golden> golden = FindGolden();
     if (golden && actual.width == golden->image.width && actual.height == golden->image.height) {
@@ -226,7 +226,7 @@ class Check {
     }
   }
 
-  // The film is the expected one: what is left to judge is how it was developed.
+  // The film is the expected one: what is left to judge is how it was encoded.
   void JudgePicture() {
     const std::optional<ImageDifference>& difference = result_.difference;
     const bool within =

@@ -71,8 +71,8 @@ Verification Verify(const std::filesystem::path& picture, const std::filesystem:
   RenderStats stats;
   const Film film = Render(inputs.loaded.scene, inputs.settings, &stats);
   const bool is_exr = before.type == ChannelType::F32;
-  const Image developed = Develop(film, request.display, request.type);
-  const Image now = is_exr ? StoredForm("picture.exr", developed) : developed;
+  const Image encoded = EncodeFilm(film, request.display, request.type);
+  const Image now = is_exr ? StoredForm("picture.exr", encoded) : encoded;
   if (before.width != now.width || before.height != now.height || before.channels != now.channels ||
       before.type != now.type) {
     throw Error(ErrorCode::InvalidInput, "its pixels are not of the size and kind that its settings say", name,

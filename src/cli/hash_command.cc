@@ -36,7 +36,7 @@ Lines Digests(const HashOptions& options) {
     lines.planes.emplace_back(InfoOf(film.planes[i].kind).name, HashPlane(film, i));
   }
   lines.others = {{"film", HashFilm(film)},
-                  {"pixels", HashImage(Develop(film, options.request.display, options.request.type))},
+                  {"pixels", HashImage(EncodeFilm(film, options.request.display, options.request.type))},
                   {"description", scene.description},
                   {"geometry", scene.geometry},
                   {"textures", scene.textures},

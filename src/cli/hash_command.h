@@ -5,7 +5,7 @@
 
 namespace facet::cli {
 
-// Prints the digests of the film, its planes, the developed picture and each input. Throws Error.
+// Prints the digests of the film, its planes, the encoded picture and each input. Throws Error.
 void RunHash(const HashOptions& options);
 
 }  // namespace facet::cli

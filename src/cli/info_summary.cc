@@ -138,7 +138,7 @@ FileSummary Summarize(const LoadedScene& file, std::string input) {
   for (int i = 0; i < static_cast<int>(scene.scenes.size()); ++i) {
     summary.scenes.push_back(SummarizeScene(scene, i, summary.meshes));
   }
-  const ResolvedCamera camera = ResolveCamera(AutoCamera(), scene, PoseIncomplete(scene, PoseSettings()), 1, 1);
+  const ResolvedCamera camera = ResolveCamera(AutoCamera(), scene, PoseWithoutTangents(scene, PoseSettings()), 1, 1);
   summary.camera = {camera.world_from_camera, camera.lens};
   summary.camera_target_distance = camera.target_distance;
   return summary;

@@ -102,7 +102,7 @@ void DrawWithProgress(const RenderOptions& options, RenderSettings settings, con
   draw(settings);
 }
 
-// How many rows a band of the picture has; 0: it is drawn whole. A PNG whose film is large is drawn, developed and
+// How many rows a band of the picture has; 0: it is drawn whole. A PNG whose film is large is drawn, encoded and
 // written band by band, so that the memory it takes does not grow with it.
 int BandRows(const RenderOptions& options) {
   constexpr std::uint64_t kLargestWhole = std::uint64_t{256} << 20, kBand = std::uint64_t{64} << 20;  // bytes of film
@@ -128,7 +128,7 @@ void CheckMemory(const RenderOptions& options) {
   budget.Charge(2 * pixels, 4 * SizeOf(request.type), "its developed pixels and the encoder's copy", {}, remedy);
 }
 
-// Loads, draws, develops and writes.
+// Loads, draws, encodes and writes.
 class Drawing {
  public:
   Drawing(const RenderOptions& options, CommandStats& stats)
@@ -142,8 +142,8 @@ class Drawing {
     std::optional<PngStream> png;
     const auto add = [&](const Film& band, int first_row) {
       Stopwatch stage;
-      const Image image = Develop(band, request_.display, request_.type);
-      stats_.develop_seconds += stage.Lap();
+      const Image image = EncodeFilm(band, request_.display, request_.type);
+      stats_.encode_seconds += stage.Lap();
       if (first_row == 0) {
         const Image form{width, height, image.channels, image.type, image.encoding, {}};
         png.emplace(options_.output, form, ToImageText(provenance));
@@ -158,7 +158,7 @@ class Drawing {
     DrawWithProgress(options_, settings_, [&](const RenderSettings& settings) {
       RenderBands(loaded_.scene, settings, rows, add, &stats_.render);
     });
-    stats_.render_seconds = stage_.Lap() - stats_.develop_seconds - stats_.write_seconds;
+    stats_.render_seconds = stage_.Lap() - stats_.encode_seconds - stats_.write_seconds;
     PrintWarnings(stats_.render.warnings, options_);
     provenance.film = film_hash.Finish();
     provenance.pixels = pixel_hash.Finish();
@@ -175,8 +175,8 @@ class Drawing {
     stats_.render_seconds = stage_.Lap();
     PrintWarnings(stats_.render.warnings, options_);
 
-    const Image image = Develop(film, request_.display, request_.type);
-    stats_.develop_seconds = stage_.Lap();
+    const Image image = EncodeFilm(film, request_.display, request_.type);
+    stats_.encode_seconds = stage_.Lap();
     WriteImageWithText(options_.output, image, [&](const Image& stored) {
       Provenance provenance = Origin();
       provenance.film = HashFilm(film);
@@ -256,7 +256,7 @@ void RenderToFile(RenderOptions& options) {
 
 }  // namespace
 
-// --threads bounds loading, developing and writing too.
+// --threads bounds loading, tone mapping and encoding and writing too.
 void RunRender(RenderOptions options) {
   RunWithThreads(options.request.settings.threads, [&] { RenderToFile(options); });
 }

@@ -5,7 +5,7 @@
 
 namespace facet::cli {
 
-// Loads, renders, develops, writes. Warnings go to standard error. Throws Error.
+// Loads, renders, encodes, writes. Warnings go to standard error. Throws Error.
 void RunRender(RenderOptions options);
 
 }  // namespace facet::cli

@@ -15,7 +15,7 @@ struct CommandStats {
   double load_seconds = 0;         // the scene's file
   double environment_seconds = 0;  // the environment's file
   double render_seconds = 0;
-  double develop_seconds = 0;  // exposure to encoding
+  double encode_seconds = 0;  // exposure to encoding
   double write_seconds = 0;
   double total_seconds = 0;  // since the program's start
   std::size_t input_bytes = 0;

@@ -62,7 +62,7 @@ class Assembler {
     const std::int32_t c0 = Code(v[0]), c1 = Code(v[1]), c2 = Code(v[2]);
     if (Rejected(c0, c1, c2)) return;
     if (((c0 | c1 | c2) & kOutClip) == 0) {
-      Emit(Vertex(v[0]), Vertex(v[1]), Vertex(v[2]), primitive, RecordKind::Triangle);
+      Emit(Vertex(v[0]), Vertex(v[1]), Vertex(v[2]), primitive, ScreenTriangleKind::Triangle);
       return;
     }
     ++chunk_.clipped;
@@ -72,7 +72,8 @@ class Assembler {
     const int count = ClipPolygon(view_, c0 | c1 | c2, polygon, 3);
     Corner screen[kMaxClipVertices + 1];
     for (int i = 0; i < count; ++i) screen[i] = Project(polygon[i], v);
-    for (int i = 2; i < count; ++i) Emit(screen[0], screen[i - 1], screen[i], primitive, RecordKind::Triangle, true);
+    for (int i = 2; i < count; ++i)
+      Emit(screen[0], screen[i - 1], screen[i], primitive, ScreenTriangleKind::Triangle, true);
   }
 
   // A line is drawn as the rectangle of width 1 pixel around it (Vulkan 1.3 specification, "Rectangular Line
@@ -94,7 +95,7 @@ class Assembler {
     const glm::dvec2 across = glm::dvec2(-along.y, along.x) * (0.5 / length);
     const double depth_a = Depth(ends[0].position), depth_b = Depth(ends[1].position);
     Quad({At(a - across, depth_a), At(b - across, depth_b), At(b + across, depth_b), At(a + across, depth_a)},
-         primitive, RecordKind::Line, clipped);
+         primitive, ScreenTriangleKind::Line, clipped);
   }
 
   // A point is drawn as the square of side 1 pixel around it.
@@ -109,7 +110,7 @@ class Assembler {
     const double depth = Depth(h);
     Quad({At(p + glm::dvec2(-0.5, -0.5), depth), At(p + glm::dvec2(0.5, -0.5), depth),
           At(p + glm::dvec2(0.5, 0.5), depth), At(p + glm::dvec2(-0.5, 0.5), depth)},
-         primitive, RecordKind::Point);
+         primitive, ScreenTriangleKind::Point);
   }
 
  private:
@@ -162,23 +163,23 @@ class Assembler {
   }
 
   // Emits a quad as two triangles. Facing does not matter, since it stands for a line or a point.
-  void Quad(const std::array<Corner, 4>& q, std::uint32_t primitive, RecordKind kind, bool clipped = false) {
+  void Quad(const std::array<Corner, 4>& q, std::uint32_t primitive, ScreenTriangleKind kind, bool clipped = false) {
     Emit(q[0], q[1], q[2], primitive, kind, clipped);
     Emit(q[0], q[2], q[3], primitive, kind, clipped);
   }
 
-  void Emit(Corner a, Corner b, Corner c, std::uint32_t primitive, RecordKind kind, bool clipped = false) {
+  void Emit(Corner a, Corner b, Corner c, std::uint32_t primitive, ScreenTriangleKind kind, bool clipped = false) {
     std::int64_t area = std::int64_t{b.x_fx8 - a.x_fx8} * (c.y_fx8 - a.y_fx8) -
                         std::int64_t{c.x_fx8 - a.x_fx8} * (b.y_fx8 - a.y_fx8);
     // glTF's front faces run counter-clockwise; with y down that is a negative area.
-    const bool back = kind == RecordKind::Triangle && (area > 0) != drawable_.mirrored;
+    const bool back = kind == ScreenTriangleKind::Triangle && (area > 0) != drawable_.mirrored;
     if (area == 0 || (back && !drawable_.double_sided)) return void(++chunk_.culled);
     if (area < 0) std::swap(b, c), area = -area;
 
     const std::int32_t x_fx8[3] = {a.x_fx8, b.x_fx8, c.x_fx8}, y_fx8[3] = {a.y_fx8, b.y_fx8, c.y_fx8};
     const SampleCoverage coverage = CoverageOf(x_fx8, y_fx8, samples_);
     if (!coverage.some) return void(++chunk_.culled);
-    TriangleRecord& r = chunk_.records.emplace_back();
+    ScreenTriangle& r = chunk_.records.emplace_back();
     std::copy_n(x_fx8, 3, r.x_fx8);
     std::copy_n(y_fx8, 3, r.y_fx8);
     const double scale = static_cast<double>(kSubpixelScale) / static_cast<double>(area);

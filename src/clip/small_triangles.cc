@@ -40,7 +40,7 @@ HWY_INLINE CornerLanes Select(Mask m, const CornerLanes& a, const CornerLanes& b
 }
 
 // The samples of the CoverageSquare from (first_x, first_y) on that triangles cover, by the rasterizer's edge functions
-// and fill rule, as bits of TriangleRecord::covered. Corners are clockwise and less than 4 pixels apart, so that every
+// and fill rule, as bits of ScreenTriangle::covered. Corners are clockwise and less than 4 pixels apart, so that every
 // term is below 2^22. (Lanes with other triangles overflow, and their results are not used.)
 HWY_INLINE Int CoveredSamples(const Int (&x_fx8)[3], const Int (&y_fx8)[3], Int first_x, Int first_y, int samples) {
   const Int x0 = ShiftLeft<kSubpixelBits>(first_x), y0 = ShiftLeft<kSubpixelBits>(first_y);
@@ -125,14 +125,14 @@ HWY_INLINE void DepthPlanes(const std::int32_t* x1, const std::int32_t* y1, cons
   }
 }
 
-SmallTriangles SetUpSmallTrianglesKernel(const TriangleRun& run, std::vector<TriangleRecord>& records) {
+SmallTriangles SetUpSmallTrianglesKernel(const TriangleRun& run, std::vector<ScreenTriangle>& records) {
   const std::uint32_t lanes = static_cast<std::uint32_t>(LaneCount());
   const bool mirrored = run.drawable->mirrored, double_sided = run.drawable->double_sided;
   SmallTriangles result;
   alignas(64) std::int32_t tail[3 * kMaxLanes] = {};
   alignas(64) std::int32_t x[3][kMaxLanes], y[3][kMaxLanes], x1[kMaxLanes], y1[kMaxLanes], x2[kMaxLanes], y2[kMaxLanes],
       areas[kMaxLanes], covered[kMaxLanes];
-  alignas(64) float depth[3][kMaxLanes], nearest[kMaxLanes], farthest[kMaxLanes];
+  alignas(64) float depth[3][kMaxLanes], max_depth[kMaxLanes], min_depth[kMaxLanes];
   alignas(64) double depth_dx[kMaxLanes], depth_dy[kMaxLanes];
   for (std::uint32_t i = 0; i < run.count; i += lanes) {
     const std::uint32_t n = std::min(lanes, run.count - i);
@@ -184,22 +184,22 @@ SmallTriangles SetUpSmallTrianglesKernel(const TriangleRun& run, std::vector<Tri
     Store(c.y - a.y, y2);
     Store(Select(turned, Int(0) - area, area), areas);
     const Float low = Select(b.depth < a.depth, b.depth, a.depth), high = Select(a.depth < b.depth, b.depth, a.depth);
-    Store(Select(c.depth < low, c.depth, low), farthest);
-    Store(Select(high < c.depth, c.depth, high), nearest);
+    Store(Select(c.depth < low, c.depth, low), min_depth);
+    Store(Select(high < c.depth, c.depth, high), max_depth);
     DepthPlanes(x1, y1, x2, y2, areas, depth, depth_dx, depth_dy);
     const std::uint32_t back_bits = BitsOf(back);
     for (; seen_bits != 0; seen_bits &= seen_bits - 1) {
       const int k = __builtin_ctz(seen_bits);
-      TriangleRecord& r = records.emplace_back();
+      ScreenTriangle& r = records.emplace_back();
       for (int v = 0; v < 3; ++v) r.x_fx8[v] = x[v][k], r.y_fx8[v] = y[v][k];
       r.depth_0 = double{depth[0][k]};
       r.depth_dx = depth_dx[k];
       r.depth_dy = depth_dy[k];
-      r.depth_min = farthest[k];
-      r.depth_max = nearest[k];
+      r.depth_min = min_depth[k];
+      r.depth_max = max_depth[k];
       r.drawable = run.drawable_index;
       r.primitive = run.first_primitive + i + static_cast<std::uint32_t>(k);
-      r.kind = RecordKind::Triangle;
+      r.kind = ScreenTriangleKind::Triangle;
       r.back_facing = (back_bits >> k & 1) != 0;
       r.covered = static_cast<std::uint32_t>(covered[k]);
     }
@@ -225,7 +225,7 @@ namespace facet {
 FACET_EXPORT(SetUpSmallTrianglesKernel);
 FACET_EXPORT(CoverageKernel);
 
-SmallTriangles SetUpSmallTriangles(const TriangleRun& run, std::vector<TriangleRecord>& records) {
+SmallTriangles SetUpSmallTriangles(const TriangleRun& run, std::vector<ScreenTriangle>& records) {
   return FACET_DISPATCH(SetUpSmallTrianglesKernel)(run, records);
 }
 

@@ -14,7 +14,7 @@ namespace facet {
 // The coverage of a triangle whose corners are in clockwise order.
 struct SampleCoverage {
   bool some;              // false: none. Beyond CoverageSquareOf(), only the bounding box is tested
-  std::uint32_t covered;  // TriangleRecord::covered
+  std::uint32_t covered;  // ScreenTriangle::covered
 };
 SampleCoverage CoverageOf(const std::int32_t (&x_fx8)[3], const std::int32_t (&y_fx8)[3], int samples);
 
@@ -45,7 +45,7 @@ struct SmallTriangles {
 // neither small nor outside the view. Appends the visible ones to `records`, in order. Others are rejected (outside the
 // view) or culled (without area, back faces, or between samples, as many are if a mesh is finer than the image). The
 // coverage of triangles that span few samples is computed here, so that the raster stage need not do it for each tile.
-SmallTriangles SetUpSmallTriangles(const TriangleRun& run, std::vector<TriangleRecord>& records);
+SmallTriangles SetUpSmallTriangles(const TriangleRun& run, std::vector<ScreenTriangle>& records);
 
 // The maximum number of triangles in a group.
 inline constexpr std::uint32_t kTriangleGroup = 16;

@@ -16,7 +16,7 @@
 namespace facet {
 namespace {
 
-// ---- Colour ---------------------------------------------------------------------------------------------------------
+// ---- Colour --------------------------------------------------------------------------------------------------------
 
 using Triple = std::array<double, 3>;
 using Matrix = std::array<Triple, 3>;
@@ -87,7 +87,7 @@ double HyAb(const Triple& p, const Triple& q) {
   return std::abs(p[0] - q[0]) + std::sqrt(a * a + b * b);
 }
 
-// ---- Filters --------------------------------------------------------------------------------------------------------
+// ---- Filters -------------------------------------------------------------------------------------------------------
 
 struct Kernel {
   std::vector<double> weights;  // 2 * radius + 1
@@ -190,14 +190,14 @@ void AddFilteredAlongY(const Plane& in, const Kernel& kernel, int margin, Plane&
   }
 }
 
-// ---- One tile of one picture ----------------------------------------------------------------------------------------
+// ---- One tile of one image ---------------------------------------------------------------------------------------
 
 struct Tile {
   int x = 0, y = 0, width = 0, height = 0;  // pixels
 };
 
-// Whether all that a filtered tile depends on has the same bits in both pictures: then its errors are 0. Most tiles of
-// pictures that are expected to be equal.
+// Whether all that a filtered tile depends on has the same bits in both images: then its errors are 0. Most tiles of
+// images that are expected to be equal.
 bool AreSameAround(const Tile& tile, int margin, const Image& a, const Image& b) {
   const int left = std::max(tile.x - margin, 0), right = std::min(tile.x + tile.width + margin, a.width);
   const int top = std::max(tile.y - margin, 0), bottom = std::min(tile.y + tile.height + margin, a.height);
@@ -218,9 +218,9 @@ struct Viewing {
 
 class TileView {
  public:
-  // Filters `tile` of the picture; pixels beyond its borders repeat those at the border.
-  void Look(const Image& picture, const Tile& tile, const Filters& filters, const Viewing& viewing) {
-    Load(picture, tile, filters.radius, viewing);
+  // Filters `tile` of the image; pixels beyond its borders repeat those at the border.
+  void Look(const Image& image, const Tile& tile, const Filters& filters, const Viewing& viewing) {
+    Load(image, tile, filters.radius, viewing);
     const int margin = filters.radius;
     for (Plane* plane : {&lightness_, &red_green_, &blue_yellow_, &edge_x_, &edge_y_, &point_x_, &point_y_}) {
       plane->Reset(tile.width, tile.height);
@@ -253,16 +253,16 @@ class TileView {
   static double Length(double x, double y) { return std::sqrt(x * x + y * y); }
 
   // The opponent channels YCxCz, without their constant factors: all that follows is linear up to the way back.
-  void Load(const Image& picture, const Tile& tile, int margin, const Viewing& viewing) {
+  void Load(const Image& image, const Tile& tile, int margin, const Viewing& viewing) {
     for (Plane* plane : {&y_, &x_minus_y_, &y_minus_z_}) {
       plane->Reset(tile.width + 2 * margin, tile.height + 2 * margin);
     }
-    const float* pixels = picture.As<float>();
+    const float* pixels = image.As<float>();
     for (int row = 0; row < y_.height; ++row) {
-      const int from_y = std::clamp(tile.y + row - margin, 0, picture.height - 1);
+      const int from_y = std::clamp(tile.y + row - margin, 0, image.height - 1);
       for (int column = 0; column < y_.width; ++column) {
-        const int from_x = std::clamp(tile.x + column - margin, 0, picture.width - 1);
-        const float* pixel = pixels + (static_cast<std::size_t>(from_y) * picture.width + from_x) * 4;
+        const int from_x = std::clamp(tile.x + column - margin, 0, image.width - 1);
+        const float* pixel = pixels + (static_cast<std::size_t>(from_y) * image.width + from_x) * 4;
         Triple rgb = OverBackdrop(pixel, viewing.backdrop);
         for (double& value : rgb) {
           // The tone curve is no curve below 0.
@@ -281,7 +281,7 @@ class TileView {
   Plane lightness_, red_green_, blue_yellow_, edge_x_, edge_y_, point_x_, point_y_;
 };
 
-// ---- Errors ---------------------------------------------------------------------------------------------------------
+// ---- Errors --------------------------------------------------------------------------------------------------------
 
 class ErrorScale {
  public:
@@ -295,7 +295,7 @@ class ErrorScale {
  private:
   static constexpr double kPower = 0.7, kKnee = 0.4, kKneeError = 0.95;
 
-  // Nearly all pixels of nearly all pictures are below the knee: one logarithm instead of two powers.
+  // Nearly all pixels of nearly all images are below the knee: one logarithm instead of two powers.
   double Log2OfColourError(double distance) const {
     const double log2_power = kPower * Log2(distance);
     if (log2_power < log2_knee_) return log2_power + log2_slope_;
@@ -309,12 +309,12 @@ class ErrorScale {
   double log2_slope_ = Log2(kKneeError / knee_);
 };
 
-// Raises `errors`, one a pixel of the picture, to those of a tile.
+// Raises `errors`, one a pixel of the image, to those of a tile.
 void RaiseErrors(const TileView& reference, const TileView& test, const Tile& tile, const ErrorScale& scale,
-                 int picture_width, std::vector<float>& errors) {
+                 int image_width, std::vector<float>& errors) {
   std::size_t i = 0;
   for (int y = 0; y < tile.height; ++y) {
-    float* out = errors.data() + static_cast<std::size_t>(tile.y + y) * picture_width + tile.x;
+    float* out = errors.data() + static_cast<std::size_t>(tile.y + y) * image_width + tile.x;
     for (int x = 0; x < tile.width; ++x, ++i, ++out) {
       const double feature =
           std::max(std::abs(reference.Edge(i) - test.Edge(i)), std::abs(reference.Point(i) - test.Point(i)));

@@ -28,7 +28,7 @@ bool AreIntegersOfOneEncoding(const Image& a, const Image& b) {
   return a.type != ChannelType::F32 && b.type != ChannelType::F32 && a.encoding == b.encoding;
 }
 
-// One picture, in both forms that measures need.
+// One image, in both forms that measures need.
 struct Side {
   Image numbers;  // RGBA as it is compared; empty where that is linear light
   Image light;    // RGBA, linear, F32
@@ -49,7 +49,7 @@ void CopyRow(const Image& rgba, int y, double scale, std::vector<double>& row) {
   for (std::size_t i = 0; i < row.size(); ++i) row[i] = static_cast<double>(from[i]) / scale;
 }
 
-// A row of an RGBA picture; codes as fractions, so that 8 and 16 bits of one value are the same double.
+// A row of an RGBA image; codes as fractions, so that 8 and 16 bits of one value are the same double.
 void ReadRow(const Image& rgba, int y, std::vector<double>& row) {
   row.resize(static_cast<std::size_t>(rgba.width) * 4);
   if (rgba.type == ChannelType::U8) return CopyRow<std::uint8_t>(rgba, y, 255.0, row);

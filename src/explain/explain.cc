@@ -221,8 +221,8 @@ std::string EnvironmentName(const EnvironmentSettings& environment) {
     case EnvironmentSettings::Kind::Studio: return "studio";
     case EnvironmentSettings::Kind::Image: break;
   }
-  const auto picture = PictureOf(environment);
-  return std::to_string(picture->width) + "x" + std::to_string(picture->height);
+  const auto image = ImageOf(environment);
+  return std::to_string(image->width) + "x" + std::to_string(image->height);
 }
 
 }  // namespace

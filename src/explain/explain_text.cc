@@ -17,7 +17,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// --- Tables ----------------------------------------------------------------------------------------------------------
+// --- Tables ---------------------------------------------------------------------------------------------------------
 
 std::size_t Columns(const std::string& text) {  // on a terminal, for text without combining or wide characters
   return std::size_t(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
@@ -63,7 +63,7 @@ std::string Joined(const std::vector<std::string>& words) {
   return text;
 }
 
-// --- Sections --------------------------------------------------------------------------------------------------------
+// --- Sections -------------------------------------------------------------------------------------------------------
 
 std::string GeometryText(const RenderStats& stats) {
   return Table({{"Geometry", ""},
@@ -104,7 +104,7 @@ std::string TexturesText(const Explanation& e) {
       row.insert(row.end(),
                  {std::to_string(t.kept->levels), std::to_string(t.kept->channels), std::to_string(t.kept->bits),
                   Bytes(double(t.kept->bytes)) +
-                      (t.kept->dark > 0.0 ? ", " + Fixed(std::floor(100.0 * t.kept->dark), 0) + " % black" : "")});
+                      (t.kept->empty > 0.0 ? ", " + Fixed(std::floor(100.0 * t.kept->empty), 0) + " % black" : "")});
     } else {
       row.insert(row.end(), {"", "", "", "not decoded: nothing visible reads it, or it is broken"});
     }
@@ -147,9 +147,9 @@ std::pair<std::string, std::string> Split(const std::string& line) {
   return {line.substr(0, colon), colon == std::string::npos ? std::string() : line.substr(colon + 2)};
 }
 
-std::string LeftOutText(const Explanation& e) {
+std::string DisabledText(const Explanation& e) {
   std::vector<std::vector<std::string>> rows = {{"Left out", "because"}};
-  for (const std::string& line : e.first.left_out) {
+  for (const std::string& line : e.first.disabled) {
     const auto [what, why] = Split(line);
     rows.push_back({what, why});
   }
@@ -183,7 +183,7 @@ std::string CostsText(const Explanation& e) {
   return text + Table(rows, "lrrrrrl");
 }
 
-// --- JSON ------------------------------------------------------------------------------------------------------------
+// --- JSON -----------------------------------------------------------------------------------------------------------
 
 Json TexturesJson(const Explanation& e) {
   Json list = Json::array();
@@ -196,7 +196,7 @@ Json TexturesJson(const Explanation& e) {
       texture["channels"] = t.kept->channels;
       texture["bits"] = t.kept->bits;
       texture["bytes"] = t.kept->bytes;
-      texture["dark"] = t.kept->dark;
+      texture["dark"] = t.kept->empty;
     }
     list.push_back(std::move(texture));
   }
@@ -222,9 +222,9 @@ Json PlanesJson(const Explanation& e) {
   return list;
 }
 
-Json LeftOutJson(const Explanation& e) {
+Json DisabledJson(const Explanation& e) {
   Json list = Json::array();
-  for (const std::string& line : e.first.left_out) {
+  for (const std::string& line : e.first.disabled) {
     const auto [what, why] = Split(line);
     list.push_back({{"what", what}, {"why", why}});
   }
@@ -254,7 +254,7 @@ std::string ToText(const Explanation& e, const std::string& scene) {
          std::to_string(e.samples) + (e.samples == 1 ? " sample" : " samples") + " a pixel, " +
          std::to_string(s.threads) + (s.threads == 1 ? " thread, " : " threads, ") + s.target + "\n\n" +
          GeometryText(s) + "\n" + MaterialsText(e) + "\n" + (e.textures.empty() ? "" : TexturesText(e) + "\n") +
-         LightText(e) + "\n" + (e.planes.empty() ? "" : PlanesText(e) + "\n") + LeftOutText(e) + "\n" +
+         LightText(e) + "\n" + (e.planes.empty() ? "" : PlanesText(e) + "\n") + DisabledText(e) + "\n" +
          FirstFrameText(e) + "\n" + CostsText(e);
 }
 
@@ -286,7 +286,7 @@ std::string ToJson(const Explanation& e, const std::string& scene) {
         {"bytes", s.environment_bytes}}},
       {"punctual_lights", {{"directional", e.lights.directional}, {"point", e.lights.point}, {"spot", e.lights.spot}}},
       {"planes", PlanesJson(e)},
-      {"left_out", LeftOutJson(e)},
+      {"left_out", DisabledJson(e)},
       {"first_frame",
        {{"pose_seconds", s.pose_seconds},
         {"texture_seconds", s.texture_seconds},

@@ -1,4 +1,5 @@
-// The digests of facet/film.h for a film that comes in bands: the bytes of all its rows follow, top row first.
+// The digests of facet/film.h for a film that arrives in bands: begin with these, and add the bytes of all rows, top row
+// first.
 #pragma once
 
 #include "base/sha256.h"
@@ -6,13 +7,13 @@
 
 namespace facet {
 
-// HashFilm()'s beginning.
+// The beginning of HashFilm().
 Sha256 BeginFilmHash(int width, int height);
 
-// HashPlane()'s beginning.
+// The beginning of HashPlane().
 Sha256 BeginPlaneHash(const PlaneInfo& plane, int width, int height);
 
-// Throws Error(InvalidUsage) unless a film has as many pixels as it says.
+// Throws Error(InvalidUsage) unless the film has width * height pixels.
 void CheckFilm(const Film& film);
 
 }  // namespace facet

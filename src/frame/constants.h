@@ -7,7 +7,7 @@
 
 namespace facet {
 
-// --- Fixed point -----------------------------------------------------------------------------------------------------
+// --- Fixed point ----------------------------------------------------------------------------------------------------
 // Screen positions are snapped to 1/256 pixel ("fx8"), x to the right and y down, origin at the image's top left
 // corner. Pixel (i, j) has its centre at (i + 1/2, j + 1/2).
 inline constexpr int kSubpixelBits = 8;
@@ -16,14 +16,14 @@ inline constexpr int kSubpixelScale = 1 << kSubpixelBits;
 // Images have at most 2^14 pixels a side. Triangles are clipped to a guard band that reaches 2^14 pixels from the
 // image's centre, so snapped positions stay within 3/2 * 2^14 pixels of the origin, and two differ by at most 2^15
 // pixels.
-inline constexpr int kMaxPictureSize = 1 << 14;
+inline constexpr int kMaxImageSize = 1 << 14;
 inline constexpr int kGuardBand = 1 << 14;  // pixels, from the centre
 inline constexpr std::int64_t kMaxDelta_fx8 = std::int64_t{2 * kGuardBand} << kSubpixelBits;  // along an edge
 
-// --- Blocks -------------------------------------------------------------------------------------------------------------
+// --- Blocks ---------------------------------------------------------------------------------------------------------
 // Coverage is computed in blocks of 8 x 8 pixels, with 64-bit edge functions at the block's corner and 32-bit ones
 // inside it. The coverage of triangles of few pixels is computed already when they are set up
-// (TriangleRecord::covered).
+// (ScreenTriangle::covered).
 inline constexpr int kBlockSize = 8;
 inline constexpr int kBlockPixels = kBlockSize * kBlockSize;
 
@@ -46,14 +46,14 @@ inline constexpr double kSteepestDepth = 1e33;  // per pixel
 static_assert(kMostDistance + 2.0 * kSteepestDepth * (2 * kGuardBand + kBlockSize) <
               double{std::numeric_limits<float>::max()});
 
-// --- Planes -------------------------------------------------------------------------------------------------------------
+// --- Planes ---------------------------------------------------------------------------------------------------------
 // Interpolation planes are stored in float relative to an anchor: the pixel's position with its low six bits cleared. A
 // tile always lies within one anchor's square, and the anchor does not depend on the tile size, so the image's bits do
 // not depend on it either.
 inline constexpr int kAnchorSize = 64;
 inline constexpr int kMaxTileSize = kAnchorSize;
 
-// --- Samples ------------------------------------------------------------------------------------------------------------
+// --- Samples --------------------------------------------------------------------------------------------------------
 inline constexpr int kMaxSamples = 8;
 
 struct SamplePosition {

@@ -63,27 +63,27 @@ struct ScreenVertex {
 // One entry per vertex of every drawable.
 using VertexBuffer = PageVector<ScreenVertex>;
 
-enum class RecordKind : std::uint8_t { Triangle, Line, Point };
+enum class ScreenTriangleKind : std::uint8_t { Triangle, Line, Point };
 
 // A triangle on the screen, with vertices snapped to 1/256 pixel: a primitive, or one of the pieces that a clipped
 // triangle, a line or a point is made of. Its depth, clamped to [depth_min, depth_max], is
 //   depth(x, y) = depth_0 + depth_dx * (x - x_0) + depth_dy * (y - y_0), with x and y in pixels,
 // in double, because vertex 0 may be thousands of pixels away; it is rounded to float once per block (MakeBlockDepth).
-struct TriangleRecord {
+struct ScreenTriangle {
   std::int32_t x_fx8[3], y_fx8[3];  // clockwise on the screen (y down): positive area
   double depth_0, depth_dx, depth_dy;
   float depth_min, depth_max;
   std::uint32_t drawable;
   std::uint32_t primitive;  // within the drawable
-  RecordKind kind;
+  ScreenTriangleKind kind;
   bool back_facing;
   bool clipped;  // a piece of a clipped primitive: its vertices are not the primitive's
   // For triangles within a CoverageSquare, the mask of covered samples: bit ((y << stride_bits) + x) * samples + s is
   // sample s of pixel (x, y), counted from FirstPixel() of the least vertex x and y. 0: not computed yet.
   std::uint32_t covered;
-  TriangleRecord()
+  ScreenTriangle()
       : primitive(0),
-        kind(RecordKind::Triangle),
+        kind(ScreenTriangleKind::Triangle),
         back_facing(false),
         clipped(false),
         covered(0) {}  // NOLINT: rest unset
@@ -98,7 +98,7 @@ inline std::int32_t GreatestOf(const std::int32_t (&p)[3]) { return std::max(std
 struct TriangleChunk {
   std::uint32_t drawable = 0;
   std::uint32_t first_primitive = 0, primitive_count = 0;
-  std::vector<TriangleRecord> records;  // binning reorders them to the order in which tiles read them
+  std::vector<ScreenTriangle> records;  // binning reorders them to the order in which tiles read them
   // Triangles by tile: tile tiles[i] has the entries [begin[i], begin[i + 1]) of `entries`, indices into `records`.
   std::vector<std::uint32_t> tiles, begin, entries;
   std::uint64_t culled = 0, clipped = 0;

@@ -42,7 +42,7 @@ struct TileBuffers {
   std::vector<std::int32_t> record;
   // Hierarchical Z: for each block a lower bound of its samples' depths. Depth grows towards the viewer, so a triangle
   // whose depth is nowhere larger than the bound is hidden in the whole block.
-  std::vector<float> farthest;
+  std::vector<float> min_depth;
 
   // The number of samples, known at compile time in code that is instantiated for kSamples = 1, so that frames without
   // multisampling do not pay for it. 0: `samples`.
@@ -69,7 +69,7 @@ struct BlockDepth {
   float c, dx, dy, low, high;
 };
 
-inline BlockDepth MakeBlockDepth(const TriangleRecord& r, int block_x_px, int block_y_px) {
+inline BlockDepth MakeBlockDepth(const ScreenTriangle& r, int block_x_px, int block_y_px) {
   constexpr double kPixel = 1.0 / kSubpixelScale;
   const double x = block_x_px - r.x_fx8[0] * kPixel, y = block_y_px - r.y_fx8[0] * kPixel;
   return {static_cast<float>(r.depth_0 + r.depth_dx * x + r.depth_dy * y), static_cast<float>(r.depth_dx),

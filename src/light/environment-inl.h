@@ -39,7 +39,7 @@ HWY_INLINE Vec3<T> IrradianceOverPi(const EnvironmentMap& map, Vec3<T> normal) {
 
 // Bilinear lookup in an equirectangular image of 4-float pixels. `direction`: of any length but 0.
 template <class T>
-HWY_INLINE Vec3<T> SampleEquirectangular(const float* picture, std::int32_t width, std::int32_t height,
+HWY_INLINE Vec3<T> SampleEquirectangular(const float* image, std::int32_t width, std::int32_t height,
                                          Vec3<T> direction) {
   const T length = Sqrt(Dot(direction, direction));
   const T y_unit = Clamp(direction.y / Max(length, T(1e-30f)), T(-1.0f), T(1.0f));
@@ -50,7 +50,7 @@ HWY_INLINE Vec3<T> SampleEquirectangular(const float* picture, std::int32_t widt
   const T x = Clamp(u * w - T(0.5f), T(-0.5f), w);
   const T y = Clamp(v * h - T(0.5f), T(0.0f), h - T(1.0f));
   const T x_floor = Floor(x);
-  const T y0 = Min(Floor(y), h - T(2.0f));  // pictures have at least two rows
+  const T y0 = Min(Floor(y), h - T(2.0f));  // images have at least two rows
   const T fx = x - x_floor;
   const T fy = y - y0;
   const T x0 = Select(x_floor < T(0.0f), w - T(1.0f), Select(x_floor >= w, x_floor - w, x_floor));
@@ -62,14 +62,14 @@ HWY_INLINE Vec3<T> SampleEquirectangular(const float* picture, std::int32_t widt
   const IntOf<T> i00 = top + TruncateToInt(x0) * four;
   const IntOf<T> i10 = top + TruncateToInt(x1) * four;
   const T left = T(1.0f) - fx, above = T(1.0f) - fy;
-  return WeighFour<T>(picture, {i00, i10, i00 + row, i10 + row}, {left * above, fx * above, left * fy, fx * fy});
+  return WeighFour<T>(image, {i00, i10, i00 + row, i10 + row}, {left * above, fx * above, left * fy, fx * fy});
 }
 
 // The environment as it is visible in a direction: from the image if that was kept, otherwise from level 0.
 template <class T>
 HWY_INLINE Vec3<T> SharpRadiance(const EnvironmentMap& map, Vec3<T> direction) {
-  if (map.picture_data != nullptr) {
-    return SampleEquirectangular(map.picture_data, map.picture_width, map.picture_height, direction);
+  if (map.image_data != nullptr) {
+    return SampleEquirectangular(map.image_data, map.image_width, map.image_height, direction);
   }
   return PrefilteredRadiance(map, direction, T(0.0f));
 }

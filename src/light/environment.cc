@@ -73,7 +73,7 @@ PageVector<float> PadPixels(const Image& rgb, std::int32_t* height) {
 }
 
 // Halves the image, whose sides are even. The four pixels are not weighted, as they subtend nearly the same angle.
-PageVector<float> HalvePicture(const PageVector<float>& in, std::int32_t width, std::int32_t height) {
+PageVector<float> HalveImage(const PageVector<float>& in, std::int32_t width, std::int32_t height) {
   const std::size_t w = std::size_t(width) / 2, h = std::size_t(height) / 2;
   PageVector<float> out(w * h * 4);
   ParallelFor(h, 16, [&](std::size_t begin, std::size_t end) {
@@ -276,13 +276,13 @@ void FillIrradiance(EnvironmentMap* map, const std::vector<SourceTexel>& source,
 
 // Gives the equator about as many texels as the image's width: in an octahedral map it is four half-edges at 45
 // degrees.
-std::int32_t SharpestLevelSize(std::int32_t picture_width, std::int32_t max_size) {
+std::int32_t SharpestLevelSize(std::int32_t image_width, std::int32_t max_size) {
   std::int32_t base = kSmallestBase;
-  while (base * 2 <= picture_width / 2 && base * 2 <= max_size) base *= 2;
+  while (base * 2 <= image_width / 2 && base * 2 <= max_size) base *= 2;
   return base;
 }
 
-std::size_t PlaceLevels(std::int32_t base, EnvironmentMap& map) {
+std::size_t AssignLevels(std::int32_t base, EnvironmentMap& map) {
   std::int32_t floats = 0;
   const auto place = [&floats](std::int32_t size) {
     const Level level{size, floats};
@@ -299,7 +299,7 @@ std::size_t PlaceLevels(std::int32_t base, EnvironmentMap& map) {
 }
 
 void LayOutLevels(std::int32_t base, EnvironmentMap& map) {
-  map.texels.assign(PlaceLevels(base, map), 0.0f);
+  map.texels.assign(AssignLevels(base, map), 0.0f);
   map.texel_data = map.texels.data();
 }
 
@@ -318,17 +318,17 @@ std::shared_ptr<const EnvironmentMap> PrefilterEnvironment(const Image& equirect
   CheckImage(equirectangular, "environment");
   auto map = std::make_shared<EnvironmentMap>();
   std::int32_t width = equirectangular.width, height = 0;
-  PageVector<float> picture = PadPixels(ToLinearRgb32F(equirectangular, &map->repaired_values), &height);
-  if (options.keep_picture) {
-    map->picture = picture;
-    map->picture_width = width;
-    map->picture_height = height;
-    map->picture_data = map->picture.data();
+  PageVector<float> image = PadPixels(ToLinearRgb32F(equirectangular, &map->repaired_values), &height);
+  if (options.keep_image) {
+    map->image = image;
+    map->image_width = width;
+    map->image_height = height;
+    map->image_data = map->image.data();
   }
 
   const std::int32_t base = SharpestLevelSize(width, options.max_size);
   while (width / 4 >= base && width % 2 == 0 && height % 2 == 0 && height >= 4) {
-    picture = HalvePicture(picture, width, height);
+    image = HalveImage(image, width, height);
     width /= 2;
     height /= 2;
   }
@@ -337,7 +337,7 @@ std::shared_ptr<const EnvironmentMap> PrefilterEnvironment(const Image& equirect
 
   ParallelFor(std::size_t(base) + 1, 8, [&](std::size_t begin, std::size_t end) {
     for (auto row = std::int32_t(begin); row < std::int32_t(end); ++row) {
-      FillOctahedronRow({picture.data(), width, height, base, row, RowOf(map.get(), map->levels[0], row)});
+      FillOctahedronRow({image.data(), width, height, base, row, RowOf(map.get(), map->levels[0], row)});
     }
   });
 

@@ -47,15 +47,15 @@ struct EnvironmentMap {
 
   PageVector<float> texels;        // RGB and one unused component
   // The image itself, RGB and one unused component, for a sharp background; empty unless it was asked for.
-  PageVector<float> picture;
-  std::int32_t picture_width = 0, picture_height = 0;
+  PageVector<float> image;
+  std::int32_t image_width = 0, image_height = 0;
 
   // How many components of the image were not finite, negative or absurdly large (see ToLinearRgb32F).
   std::size_t repaired_values = 0;
 
   // Pointers into the vectors above, for kernels.
   const float* texel_data = nullptr;
-  const float* picture_data = nullptr;
+  const float* image_data = nullptr;
 
   EnvironmentMap() = default;
   EnvironmentMap(const EnvironmentMap&) = delete;
@@ -63,7 +63,7 @@ struct EnvironmentMap {
 };
 
 struct EnvironmentOptions {
-  bool keep_picture = false;  // for Background()
+  bool keep_image = false;    // for Background()
   int max_size = 1024;        // of level 0; a power of two, 64 at least
   int samples = 24;           // for the narrowest lobe
   IrradianceMethod irradiance = IrradianceMethod::Convolution;
@@ -78,14 +78,14 @@ std::shared_ptr<const EnvironmentMap> PrefilterEnvironment(const Image& equirect
                                                            const EnvironmentOptions& options = {});
 
 // The size of level 0, in cells, for an image of this width under the limit options.max_size.
-std::int32_t SharpestLevelSize(std::int32_t picture_width, std::int32_t max_size);
+std::int32_t SharpestLevelSize(std::int32_t image_width, std::int32_t max_size);
 
 // Lays out the levels of a map one after the other, beginning with level 0 of size `base`, then the irradiance, and
 // allocates black texels.
 void LayOutLevels(std::int32_t base, EnvironmentMap& map);
 
 // The same without the texels; returns their size in floats.
-std::size_t PlaceLevels(std::int32_t base, EnvironmentMap& map);
+std::size_t AssignLevels(std::int32_t base, EnvironmentMap& map);
 
 // The version of the prefiltering arithmetic, by which cached maps of other versions are ignored. It must be raised
 // with every change of PrefilterEnvironment(), the arithmetic that it uses, or an image decoder that changes a bit of

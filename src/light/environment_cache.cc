@@ -45,7 +45,7 @@ struct Header {
   std::uint32_t format = kFormat;
   Digest key{};
   std::int32_t size = 0;  // of the sharpest level, in texels
-  std::int32_t picture_width = 0, picture_height = 0;
+  std::int32_t image_width = 0, image_height = 0;
   std::int32_t zero = 0;
   std::uint64_t repaired_values = 0;
   Digest content{};  // of the other header fields and all floats
@@ -137,34 +137,34 @@ class CachedEnvironment final : public EnvironmentSource {
  public:
   // A regular file is only hashed, piece by piece: allocating memory for all of it would take longer than its digest.
   // What cannot be read twice, such as a pipe, is kept in memory.
-  CachedEnvironment(std::filesystem::path picture, std::filesystem::path folder)
-      : picture_(std::move(picture)), folder_(std::move(folder)) {
+  CachedEnvironment(std::filesystem::path image_file, std::filesystem::path folder)
+      : image_file_(std::move(image_file)), folder_(std::move(folder)) {
     std::error_code ignored;
-    const OpenFile file(std::filesystem::is_regular_file(picture_, ignored) ? picture_ : std::filesystem::path());
+    const OpenFile file(std::filesystem::is_regular_file(image_file_, ignored) ? image_file_ : std::filesystem::path());
     const std::uint64_t file_size = file.Size();
     if (file_size == 0) {
-      bytes_ = ReadFile(picture_);
+      bytes_ = ReadFile(image_file_);
       digest_ = DigestOf(bytes_.Span());
       return;
     }
     Sha256 hash;
     AddInPieces(hash, file_size, [&](std::size_t first, std::size_t size, Scratch& scratch) {
       const auto piece = std::span(scratch).first(size);
-      if (!file.Read(first, piece)) throw Error(ErrorCode::NotFound, "cannot be read whole", picture_.string());
+      if (!file.Read(first, piece)) throw Error(ErrorCode::NotFound, "cannot be read whole", image_file_.string());
       return std::span<const std::byte>(piece);
     });
     digest_ = hash.Finish();
   }
 
-  std::shared_ptr<const Image> Picture() const override {
+  std::shared_ptr<const Image> Decode() const override {
     const FloatEnvironment pinned;
-    if (bytes_.size > 0) return std::make_shared<const Image>(DecodeImage(bytes_.Span(), picture_.string()));
-    const Bytes bytes = ReadFile(picture_);
+    if (bytes_.size > 0) return std::make_shared<const Image>(DecodeImage(bytes_.Span(), image_file_.string()));
+    const Bytes bytes = ReadFile(image_file_);
     // Otherwise the maps of another image would be stored under this digest.
     if (DigestOf(bytes.Span()) != digest_) {
-      throw Error(ErrorCode::InvalidInput, "was changed while it was in use", picture_.string());
+      throw Error(ErrorCode::InvalidInput, "was changed while it was in use", image_file_.string());
     }
-    return std::make_shared<const Image>(DecodeImage(bytes.Span(), picture_.string()));
+    return std::make_shared<const Image>(DecodeImage(bytes.Span(), image_file_.string()));
   }
 
   std::shared_ptr<const EnvironmentMap> Find(const EnvironmentOptions& options,
@@ -180,19 +180,19 @@ class CachedEnvironment final : public EnvironmentSource {
       return nullptr;
     }
     // Sizes are checked before memory is allocated for them, since the digest can be checked only afterwards.
-    const std::int32_t width = header.picture_width, height = header.picture_height;
+    const std::int32_t width = header.image_width, height = header.image_height;
     const bool size_ok =
         header.size >= 64 && header.size <= options.max_size && std::has_single_bit(unsigned(header.size));
     // PrefilterEnvironment() doubles the row of an image of height 1.
-    const bool picture_ok = options.keep_picture ? width >= 1 && width <= kMaxImageSide && height >= 2 &&
-                                                       height <= kMaxImageSide &&
-                                                       std::uint64_t(width) * std::uint64_t(height) <= kMaxImagePixels
-                                                 : width == 0 && height == 0;
-    if (!size_ok || !picture_ok) return nullptr;
+    const bool image_ok = options.keep_image
+                              ? width >= 1 && width <= kMaxImageSide && height >= 2 && height <= kMaxImageSide &&
+                                    std::uint64_t(width) * std::uint64_t(height) <= kMaxImagePixels
+                              : width == 0 && height == 0;
+    if (!size_ok || !image_ok) return nullptr;
     auto map = std::make_shared<EnvironmentMap>();
-    const std::size_t texel_count = PlaceLevels(header.size, *map);
-    const std::size_t picture_count = std::size_t(header.picture_width) * std::size_t(header.picture_height) * 4;
-    const std::uint64_t float_bytes = std::uint64_t(texel_count + picture_count) * sizeof(float);
+    const std::size_t texel_count = AssignLevels(header.size, *map);
+    const std::size_t image_floats = std::size_t(header.image_width) * std::size_t(header.image_height) * 4;
+    const std::uint64_t float_bytes = std::uint64_t(texel_count + image_floats) * sizeof(float);
     if (file_size != sizeof(Header) + float_bytes) return nullptr;
     admit(float_bytes);
 
@@ -211,12 +211,12 @@ class CachedEnvironment final : public EnvironmentSource {
       offset += bytes.size();
     };
     read(map->texels, texel_count);
-    read(map->picture, picture_count);
+    read(map->image, image_floats);
     if (hash.Finish() != header.content || !is_light) return nullptr;
     map->texel_data = map->texels.data();
-    if (options.keep_picture) map->picture_data = map->picture.data();
-    map->picture_width = header.picture_width;
-    map->picture_height = header.picture_height;
+    if (options.keep_image) map->image_data = map->image.data();
+    map->image_width = header.image_width;
+    map->image_height = header.image_height;
     map->repaired_values = std::size_t(header.repaired_values);
     return map;
   }
@@ -224,13 +224,13 @@ class CachedEnvironment final : public EnvironmentSource {
   std::string Keep(const EnvironmentOptions& options, const EnvironmentMap& map) const override {
     Header header{.key = KeyOf(options)};
     header.size = map.levels[0].size;
-    header.picture_width = map.picture_width;
-    header.picture_height = map.picture_height;
+    header.image_width = map.image_width;
+    header.image_height = map.image_height;
     header.repaired_values = map.repaired_values;
-    const auto texels = std::as_bytes(std::span(map.texels)), picture = std::as_bytes(std::span(map.picture));
+    const auto texels = std::as_bytes(std::span(map.texels)), image = std::as_bytes(std::span(map.image));
     Sha256 hash = BeginContent(header);
     AddInPieces(hash, texels);
-    AddInPieces(hash, picture);
+    AddInPieces(hash, image);
     header.content = hash.Finish();
     const std::string nothing_kept = "the prepared environment is not kept: ";
     std::error_code failure;
@@ -238,7 +238,7 @@ class CachedEnvironment final : public EnvironmentSource {
     if (failure) return nothing_kept + folder_.string() + ": cannot be made: " + failure.message();
     try {
       // Other users may be able to write to the folder, so symbolic links in it are not followed.
-      WriteFile(PathOf(header.key), {std::as_bytes(std::span(&header, 1)), texels, picture}, OutputFile::Links::Refuse);
+      WriteFile(PathOf(header.key), {std::as_bytes(std::span(&header, 1)), texels, image}, OutputFile::Links::Refuse);
     } catch (const Error& error) {
       return nothing_kept + error.what();
     }
@@ -248,13 +248,13 @@ class CachedEnvironment final : public EnvironmentSource {
  private:
   Digest KeyOf(const EnvironmentOptions& options) const {
     // A structured binding, which does not compile if an option is added and forgotten here.
-    const auto& [keep_picture, max_size, samples, irradiance] = options;
+    const auto& [keep_image, max_size, samples, irradiance] = options;
     Sha256 hash;
     hash.Add(Version());
     hash.Add(kFormat);
     hash.Add(kEnvironmentArithmetic);
     hash.Add(std::as_bytes(std::span(digest_.bytes)));
-    hash.Add(keep_picture);
+    hash.Add(keep_image);
     hash.Add(max_size);
     hash.Add(samples);
     hash.Add(irradiance);
@@ -263,16 +263,16 @@ class CachedEnvironment final : public EnvironmentSource {
 
   std::filesystem::path PathOf(const Digest& key) const { return folder_ / (ToHex(key) + ".environment"); }
 
-  std::filesystem::path picture_, folder_;
+  std::filesystem::path image_file_, folder_;
   Bytes bytes_;  // the file's content, if it cannot be read twice
   Digest digest_;
 };
 
 }  // namespace
 
-std::shared_ptr<const EnvironmentSource> OpenEnvironment(const std::filesystem::path& picture,
+std::shared_ptr<const EnvironmentSource> OpenEnvironment(const std::filesystem::path& image_file,
                                                          const std::filesystem::path& cache) {
-  return std::make_shared<const CachedEnvironment>(picture, cache);
+  return std::make_shared<const CachedEnvironment>(image_file, cache);
 }
 
 }  // namespace facet

@@ -49,8 +49,8 @@ void FillOctahedronRow(const OctahedronRowTask& task) {
     Vec3<Float> sum{};
     for (int s = 0; s < 4; ++s) {
       const Vec2<Float> offset = {Float(s & 1 ? 0.25f * cell : -0.25f * cell), Float(s & 2 ? 0.25f * cell : -0.25f * cell)};
-      sum += SampleEquirectangular(task.picture, task.picture_width, task.picture_height,
-                                   DirectionFromOctahedron(uv + offset));
+      sum +=
+          SampleEquirectangular(task.image, task.image_width, task.image_height, DirectionFromOctahedron(uv + offset));
     }
     // An area dx dz of the octahedron's square subtends dx dz / |p|^3, p the point on the octahedron.
     const Float x = Abs(uv.x * Float(2.0f) - Float(1.0f));

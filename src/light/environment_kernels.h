@@ -9,8 +9,8 @@ namespace facet {
 // Resamples an equirectangular image of 4-float pixels, with 2 x 2 samples per texel. The fourth component of each
 // texel becomes the solid angle of a cell at that position.
 struct OctahedronRowTask {
-  const float* picture;
-  std::int32_t picture_width, picture_height;
+  const float* image;
+  std::int32_t image_width, image_height;
   std::int32_t size, row;
   float* out;
 };

@@ -12,27 +12,27 @@
 
 namespace facet {
 
-// Behaves as if it were immutable: Find() returns, bit for bit, what PrefilterEnvironment() computes from Picture().
+// Behaves as if it were immutable: Find() returns, bit for bit, what PrefilterEnvironment() computes from Decode().
 class EnvironmentSource {
  public:
   virtual ~EnvironmentSource() = default;
 
   // Decodes the image. Throws Error, as DecodeImage() does.
-  virtual std::shared_ptr<const Image> Picture() const = 0;
+  virtual std::shared_ptr<const Image> Decode() const = 0;
 
   // The maps that are stored for these options; null if there are none, or if they are damaged. Calls `admit` with the
   // number of bytes that they take before allocating them; it may throw.
   virtual std::shared_ptr<const EnvironmentMap> Find(const EnvironmentOptions& options,
                                                      const std::function<void(std::uint64_t)>& admit) const = 0;
 
-  // Stores maps that were prefiltered from Picture(). A failure is returned as a warning, since it does not affect the
+  // Stores maps that were prefiltered from Decode(). A failure is returned as a warning, since it does not affect the
   // frame; otherwise the text is empty.
   virtual std::string Keep(const EnvironmentOptions& options, const EnvironmentMap& map) const = 0;
 };
 
 // The environment's image, decoded if need be. For EnvironmentSettings::Kind::Image.
-inline std::shared_ptr<const Image> PictureOf(const EnvironmentSettings& environment) {
-  return environment.image != nullptr ? environment.image : environment.source->Picture();
+inline std::shared_ptr<const Image> ImageOf(const EnvironmentSettings& environment) {
+  return environment.image != nullptr ? environment.image : environment.source->Decode();
 }
 
 }  // namespace facet

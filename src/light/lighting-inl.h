@@ -18,9 +18,9 @@ namespace HWY_NAMESPACE {
 // KHR_lights_punctual at `position`, relative to the eye, world axes.
 template <class T>
 HWY_INLINE LightSample<T> SamplePunctual(const PunctualLight& light, Vec3<T> position) {
-  const Vec3<T> radiant = {T(light.radiant[0]), T(light.radiant[1]), T(light.radiant[2])};
+  const Vec3<T> intensity = {T(light.intensity[0]), T(light.intensity[1]), T(light.intensity[2])};
   const Vec3<T> shines = {T(light.direction[0]), T(light.direction[1]), T(light.direction[2])};
-  if (light.type == LightType::Directional) return {-shines, radiant};
+  if (light.type == LightType::Directional) return {-shines, intensity};
   const Vec3<T> to_light = Vec3<T>{T(light.position_eye[0]), T(light.position_eye[1]), T(light.position_eye[2])} -
                            position;
   // Distances below a millimetre count as a millimetre, so that the illuminance stays finite.
@@ -37,7 +37,7 @@ HWY_INLINE LightSample<T> SamplePunctual(const PunctualLight& light, Vec3<T> pos
     const T angular = Clamp(cosine * T(light.spot_scale) + T(light.spot_offset), T(0.0f), T(1.0f));
     attenuation *= angular * angular;
   }
-  return {direction, radiant * attenuation};
+  return {direction, intensity * attenuation};
 }
 
 // The rows of a DfgTable to interpolate between.
@@ -88,7 +88,7 @@ class LightingView {
     return PrefilteredRadiance(*data_->environment, ToEnvironment(direction), perceptual_roughness) *
            T(data_->environment_intensity);
   }
-  // The environment as a background: from its image if that was kept (keep_picture), else from its sharpest map.
+  // The environment as a background: from its image if that was kept (keep_image), else from its sharpest map.
   HWY_INLINE Vec3<T> Background(Vec3<T> direction) const {
     return SharpRadiance(*data_->environment, ToEnvironment(direction)) * T(data_->environment_intensity);
   }

@@ -22,8 +22,8 @@ std::vector<PunctualLight> MakePunctualLights(const std::vector<PosedLight>& lig
   result.reserve(lights.size());
   for (const PosedLight& posed : lights) {
     const Light& light = *posed.light;
-    const glm::dvec3 radiant = glm::dvec3(light.color) * double(light.intensity);
-    const bool shines = radiant.x > 0.0 || radiant.y > 0.0 || radiant.z > 0.0;
+    const glm::dvec3 intensity = glm::dvec3(light.color) * double(light.intensity);
+    const bool shines = intensity.x > 0.0 || intensity.y > 0.0 || intensity.z > 0.0;
     if (!shines || !(light.range > 0.0f)) continue;
     PunctualLight p;
     p.type = light.type;
@@ -31,7 +31,7 @@ std::vector<PunctualLight> MakePunctualLights(const std::vector<PosedLight>& lig
     // A distance that overflows a float is so large that no light arrives.
     if (light.type != LightType::Directional && !IsFinite(p.position_eye)) continue;
     Copy(posed.direction_world, p.direction);
-    Copy(radiant, p.radiant);
+    Copy(intensity, p.intensity);
     if (light.type != LightType::Directional) {
       const double r2 = double(light.range) * double(light.range);
       p.inverse_range2 = static_cast<float>(std::min(1.0 / r2, 1e30));  // 0 for an infinite range

@@ -13,7 +13,7 @@ struct PunctualLight {
   LightType type = LightType::Point;
   float position_eye[3] = {0, 0, 0};       // point and spot
   float direction[3] = {0, 0, -1};         // unit, in which the light shines; directional and spot
-  float radiant[3] = {0, 0, 0};            // colour * intensity: lux for directional, else candela
+  float intensity[3] = {0, 0, 0};          // colour * intensity: lux for directional, else candela
   float inverse_range2 = 0.0f;             // range^-2; 0: unlimited
   float spot_scale = 0.0f;                 // angular attenuation = clamp(cos * scale + offset, 0, 1)^2
   float spot_offset = 1.0f;

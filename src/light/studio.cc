@@ -80,7 +80,7 @@ class Room {
 
 }  // namespace
 
-Image StudioPicture(int width, int height) {
+Image StudioImage(int width, int height) {
   FACET_CHECK_OP(height, >=, 2);
   FACET_CHECK_OP(width, ==, 2 * height);
   const Room room;

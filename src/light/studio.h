@@ -12,7 +12,7 @@ namespace facet {
 // front left, a fill to the right and two strips behind for edges. No file is needed. Linear RGB, F32, equirectangular,
 // mean radiance over the sphere 0.65 (white that faces the lamps comes out just below white at exposure 0). `width` is
 // twice `height`.
-Image StudioPicture(int width, int height);
+Image StudioImage(int width, int height);
 
 // The size of the image that lights scenes. Nothing in the studio is sharper than one of its pixels.
 inline constexpr int kStudioWidth = 512, kStudioHeight = 256;

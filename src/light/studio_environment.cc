@@ -35,8 +35,8 @@ std::shared_ptr<const EnvironmentMap> StudioEnvironment(EnvironmentOptions optio
   }
   // Prefiltered outside of the lock, which must not be held while this thread takes part in other parallel tasks. If
   // two threads do it at once, the second result is discarded.
-  auto map = options == kStudioOptions ? FromTable()
-                                       : PrefilterEnvironment(StudioPicture(kStudioWidth, kStudioHeight), options);
+  auto map =
+      options == kStudioOptions ? FromTable() : PrefilterEnvironment(StudioImage(kStudioWidth, kStudioHeight), options);
   const std::lock_guard<std::mutex> lock(mutex);
   return prepared.try_emplace(options, std::move(map)).first->second;
 }

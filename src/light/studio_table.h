@@ -1,4 +1,4 @@
-// The studio's prepared light as the build computes it, for the options that nearly all pictures use.
+// The studio's prepared light as the build computes it, for the options that nearly all images use.
 #pragma once
 
 #include <cstddef>

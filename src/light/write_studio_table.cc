@@ -7,7 +7,7 @@
 
 int main(int argc, char** argv) {
   using namespace facet;
-  const auto map = PrefilterEnvironment(StudioPicture(kStudioWidth, kStudioHeight), kStudioOptions);
+  const auto map = PrefilterEnvironment(StudioImage(kStudioWidth, kStudioHeight), kStudioOptions);
   std::FILE* file = argc == 2 ? std::fopen(argv[1], "w") : nullptr;
   if (file == nullptr) {
     std::fprintf(stderr, "write_studio_table: give the name of a file that can be written\n");

@@ -71,7 +71,7 @@ std::vector<Pixel> BoxMeans(const Pixel* pixels, int width, int height, int n) {
   return means;
 }
 
-// How far the relative RMSE over some blocks is probably off that of the whole picture, of which they are `share`: by
+// How far the relative RMSE over some blocks is probably off that of the whole image, of which they are `share`: by
 // the variance of a ratio's estimate (Cochran, 1977, Sampling Techniques, section 2.11), as if the blocks had been
 // drawn without regard to one another. They are spread evenly, and so do better.
 double StandardError(const std::vector<ErrorSum>& blocks, const ErrorSum& all, double share) {
@@ -86,7 +86,7 @@ double StandardError(const std::vector<ErrorSum>& blocks, const ErrorSum& all, d
   return of_ratio / (2.0 * std::sqrt(ratio));
 }
 
-// Calls row(first, place) for each row of a part: the indices of its first pixel in a picture of some width, and in the
+// Calls row(first, place) for each row of a part: the indices of its first pixel in an image of some width, and in the
 // part by itself.
 template <class Row>
 void ForEachRow(const PixelBlock& part, int width, const Row& row) {
@@ -114,7 +114,7 @@ bool IsOpaque(const Image& rgba) {
   return true;
 }
 
-// A picture may be much longer than wide: no side may vanish.
+// An image may be much longer than wide: no side may vanish.
 int Divisor(int width, int height, int longest) {
   const int n = (std::max(width, height) + longest - 1) / longest;
   return std::min({n, width, height});
@@ -188,16 +188,16 @@ Film Reduced(const Film& film, int longest) {
   return {film.width / n, film.height / n, BoxMeans(film.pixels.data(), film.width, film.height, n)};
 }
 
-FlipJudge::FlipJudge(const ReferenceFilm& reference, const Image& developed)
-    : light_(ToLinearRgba32F(developed)),
+FlipJudge::FlipJudge(const ReferenceFilm& reference, const Image& encoded)
+    : light_(ToLinearRgba32F(encoded)),
       parts_(reference.blocks),
       known_pixels_(reference.known_pixels),
       whole_(reference.whole) {
   if (whole_) parts_ = {{0, 0, reference.width, reference.height}};
 }
 
-FlipJudge::Verdict FlipJudge::Judge(const Image& developed) const {
-  const Image light = ToLinearRgba32F(developed);
+FlipJudge::Verdict FlipJudge::Judge(const Image& encoded) const {
+  const Image light = ToLinearRgba32F(encoded);
   Verdict verdict;
   verdict.errors.assign(light.PixelCount(), 0.0f);
   std::vector<double> sums(parts_.size(), 0.0);

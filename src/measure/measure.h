@@ -39,14 +39,14 @@ Film Reduced(const Film& film, int longest);
 // compared as an image of its own, whose borders FLIP extends outwards; this makes the mean about 3 % larger.
 class FlipJudge {
  public:
-  // `developed`: the encoded reference, with integer components.
-  FlipJudge(const ReferenceFilm& reference, const Image& developed);
+  // `encoded`: the encoded reference, with integer components.
+  FlipJudge(const ReferenceFilm& reference, const Image& encoded);
 
   struct Verdict {
     double mean = 0.0;
     std::vector<float> errors;  // of each pixel, 0 to 1; 0 where the reference is unknown
   };
-  Verdict Judge(const Image& developed) const;
+  Verdict Judge(const Image& encoded) const;
 
   // The errors in the colours of HeatMap(), reduced like a film; transparent where the reference is unknown.
   Image Map(const Verdict& verdict, int longest) const;

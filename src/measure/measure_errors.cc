@@ -58,7 +58,7 @@ class Sweep {
         compared_(std::uint64_t(resolved_.width) * std::uint64_t(resolved_.height), kComparedBytes,
                   "films to compare") {
     if (resolved_.environment.kind == EnvironmentSettings::Kind::Studio) {
-      studio_ = std::make_shared<const Image>(StudioPicture(kStudioWidth, kStudioHeight));
+      studio_ = std::make_shared<const Image>(StudioImage(kStudioWidth, kStudioHeight));
       largest_environment_ = kStudioMaxSize;
       resolved_.environment_size = std::min(resolved_.environment_size, kStudioMaxSize);
     }
@@ -139,7 +139,7 @@ class Sweep {
 
   void TakeReference() {
     const ReferenceFilm& film = *reference_film_;
-    flip_ = std::make_unique<FlipJudge>(film, Develop(ToFilm(film), request_.display));
+    flip_ = std::make_unique<FlipJudge>(film, EncodeFilm(ToFilm(film), request_.display));
     ErrorReport::Reference& out = out_.reference;
     out = {out.samples, film.batches, film.known_pixels, film.seconds, film.rms_error, film.relative_error, film.notes};
   }
@@ -228,9 +228,9 @@ class Sweep {
     point.seconds = drawn.seconds;
     point.peak_bytes = drawn.peak_bytes;
     point.error = ErrorOf(drawn.film, *reference_film_);
-    const FlipJudge::Verdict flip = flip_->Judge(Develop(drawn.film, request_.display));
+    const FlipJudge::Verdict flip = flip_->Judge(EncodeFilm(drawn.film, request_.display));
     point.error.flip = flip.mean;
-    point.picture_png = EncodePng(Develop(Reduced(drawn.film, kThumbnail), request_.display));
+    point.image_png = EncodePng(EncodeFilm(Reduced(drawn.film, kThumbnail), request_.display));
     point.error_map_png = EncodePng(flip_->Map(flip, kThumbnail));
     out_.points.push_back(std::move(point));
     measured_.insert(drawn.changed);
@@ -243,7 +243,7 @@ class Sweep {
     Say("rounding");
     const Film exact = RenderInDouble(scene_, resolved_);
     FilmError error = ErrorOf(used.film, exact);
-    error.flip = CompareImages(Develop(exact, request_.display), Develop(used.film, request_.display)).flip_mean;
+    error.flip = CompareImages(EncodeFilm(exact, request_.display), EncodeFilm(used.film, request_.display)).flip_mean;
     out_.rounding = error;
   }
 

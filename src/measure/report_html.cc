@@ -107,7 +107,7 @@ bool AskedForDefaults(const ErrorReport& report) {
 
 std::string AskedName(const ErrorReport& report) { return AskedForDefaults(report) ? "default" : "asked for"; }
 
-bool HasPictures(const ReportPoint& point) { return !point.picture_png.empty() || !point.error_map_png.empty(); }
+bool HasImages(const ReportPoint& point) { return !point.image_png.empty() || !point.error_map_png.empty(); }
 
 std::string Cell(const std::string& text) { return "<td class=\"number\">" + Escaped(text) + "</td>"; }
 
@@ -176,7 +176,7 @@ Diagram DiagramOf(const ErrorReport& report, const std::vector<Ranked>& ranked, 
     point.title = r.number + ": " + SettingsWords(r.point->changed) + ", relative RMSE " +
                   ErrorWords(r.point->error.relative_rmse) + ", " + TimeWords(r.point->seconds);
     if (r.point->peak_bytes > 0) point.title += ", " + BytesWords(double(r.point->peak_bytes));
-    point.link = (HasPictures(*r.point) ? "#picture-" : "#point-") + r.number;
+    point.link = (HasImages(*r.point) ? "#picture-" : "#point-") + r.number;
     if (r.asked) point.label = AskedName(report);
   }
   return diagram;
@@ -243,9 +243,8 @@ std::string MemoryDiagram(const ErrorReport& report, const std::vector<Ranked>& 
   diagram.name = "Error against memory";
   diagram.x_title = std::string("most memory while rendering (") + unit.name + ")";
   std::string caption = "The same points. Filled and joined: no other point has less error without more memory.";
-  const std::size_t left_out = ranked.size() - diagram.points.size();
-  if (left_out > 0)
-    caption += " " + Count(left_out, "point is", "points are") + " left out, for want of a known memory.";
+  const std::size_t omitted = ranked.size() - diagram.points.size();
+  if (omitted > 0) caption += " " + Count(omitted, "point is", "points are") + " left out, for want of a known memory.";
   return Captioned(diagram, caption);
 }
 
@@ -333,7 +332,7 @@ std::string PointsTable(const ErrorReport& report, const std::vector<Ranked>& ra
     std::string kind = p.pareto ? "front" : "dominated";
     if (r.asked) kind += " asked";
     std::string settings = Escaped(SettingsWords(p.changed));
-    if (HasPictures(p)) settings = "<a href=\"#picture-" + r.number + "\">" + settings + "</a>";
+    if (HasImages(p)) settings = "<a href=\"#picture-" + r.number + "\">" + settings + "</a>";
     if (r.asked && AskedForDefaults(report)) settings += " (default)";
     html += "<tr id=\"point-" + r.number + "\" class=\"" + kind + "\">" + Cell(r.number) + "<td class=\"mark\">" +
             (p.pareto ? "●" : "") + "</td><td class=\"settings\">" + settings + "</td>" + Cell(TimeWords(p.seconds)) +
@@ -345,7 +344,7 @@ std::string PointsTable(const ErrorReport& report, const std::vector<Ranked>& ra
   return html + "</tbody>\n</table></div>\n";
 }
 
-std::string Picture(const std::string& alt, const std::vector<std::byte>& png) {
+std::string ImageTag(const std::string& alt, const std::vector<std::byte>& png) {
   if (png.empty()) return {};
   return "<img alt=\"" + Escaped(alt) + "\" src=\"data:image/png;base64," + Base64(png) + "\"/>";
 }
@@ -353,11 +352,11 @@ std::string Picture(const std::string& alt, const std::vector<std::byte>& png) {
 std::string Gallery(const std::vector<Ranked>& ranked) {
   std::string cards;
   for (const Ranked& r : ranked) {
-    if (!HasPictures(*r.point)) continue;
+    if (!HasImages(*r.point)) continue;
     const std::string words = SettingsWords(r.point->changed);
     cards += "<figure class=\"card\" id=\"picture-" + r.number + "\"><div>" +
-             Picture("picture with " + words, r.point->picture_png) +
-             Picture("error map of " + words, r.point->error_map_png) + "</div><figcaption><b>" + r.number + "</b> " +
+             ImageTag("picture with " + words, r.point->image_png) +
+             ImageTag("error map of " + words, r.point->error_map_png) + "</div><figcaption><b>" + r.number + "</b> " +
              Escaped(words) + "<br/>relative RMSE " + ErrorWords(r.point->error.relative_rmse) + ", FLIP " +
              ErrorWords(r.point->error.flip) + ", " + TimeWords(r.point->seconds) + "</figcaption></figure>\n";
   }

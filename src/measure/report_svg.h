@@ -11,7 +11,7 @@ namespace facet {
 // An axis with a logarithmic scale. Numbers at or below 0 stand at its low end, infinite ones and NaN at its high end.
 struct LogAxis {
   double low = 0.1, high = 1.0;  // values at the ends; 0 < low < high
-  double from = 0.0, to = 1.0;   // where those stand in the picture
+  double from = 0.0, to = 1.0;   // where those stand in the image
 
   // from + (to - from) (log10 value - log10 low) / (log10 high - log10 low), held between the ends.
   double At(double value) const;

@@ -11,18 +11,18 @@ namespace facet {
 
 class FragmentShader;  // facet/shader.h
 
-// UV sets that one material may read: each of its textures may name another. What is stored for a triangle grows with
-// those that are.
+// The most UV sets that one material reads: each of its textures may name another. The attribute setup of a triangle
+// stores only those that are read.
 inline constexpr int kMaxUvSlots = kSlotCount;
 
 struct FrameMaterial {
   MaterialFeatures features = 0;
-  ShadingModel model = ShadingModel::MetallicRoughness;  // Unlit too where there is no surface that light falls on
-  const FragmentShader* shader = nullptr;                // a user's, in place of the model
+  ShadingModel model = ShadingModel::MetallicRoughness;  // Unlit for points and lines without normals
+  const FragmentShader* shader = nullptr;                // replaces the model; null: none
   bool vertex_colors = false;
   AlphaMode alpha_mode = AlphaMode::Opaque;
   MaterialFactors factors;
-  int uv_slots = 0;               // UV sets that it reads
+  int uv_slots = 0;               // number of UV sets that it reads
   int uv_sets[kMaxUvSlots] = {};  // TEXCOORD_n of each
   BoundTexture textures[kSlotCount];
 

@@ -34,12 +34,12 @@ class Planner {
   }
 
   FramePlan plan;
-  FeatureSet stated;  // what a drawn material says it has, of use or not
+  FeatureSet stated;  // features that drawn materials state, whether or not they are visible
 
  private:
   PlannedMaterial Plan(Material material, int index, bool on_surface, bool colors, bool flat) {
     if (flat) material.normal_texture = {};
-    LeaveOut(material, colors);
+    Disable(material, colors);
     PlannedMaterial planned;
     planned.material = index;
     planned.vertex_colors = colors;
@@ -78,22 +78,22 @@ class Planner {
     SetTransform(ref, bound);
   }
 
-  // What the settings leave out, as if the file did not state it.
-  void LeaveOut(Material& m, bool& colors) {
-    const auto leave_out = [&](Feature feature, bool is_stated, auto&& remove) {
+  // Disables what the settings ask to disable, as if the file did not state it.
+  void Disable(Material& m, bool& colors) {
+    const auto disable = [&](Feature feature, bool is_stated, auto&& remove) {
       if (!is_stated) return;
       stated.Add(feature);
       if (settings_.without.Has(feature)) remove();
     };
     for (const SlotInfo& slot : kSlots) {
       TextureRef& ref = m.*slot.ref;
-      leave_out(slot.feature, bool(ref), [&ref] { ref = {}; });
+      disable(slot.feature, bool(ref), [&ref] { ref = {}; });
     }
-    leave_out(Feature::Emission, m.emissive_factor != glm::vec3(0.0f), [&m] { m.emissive_factor = glm::vec3(0.0f); });
-    leave_out(Feature::VertexColors, colors, [&colors] { colors = false; });
+    disable(Feature::Emission, m.emissive_factor != glm::vec3(0.0f), [&m] { m.emissive_factor = glm::vec3(0.0f); });
+    disable(Feature::VertexColors, colors, [&colors] { colors = false; });
     const auto opaque = [&m] { m.alpha_mode = AlphaMode::Opaque; };
-    leave_out(Feature::AlphaTest, m.alpha_mode == AlphaMode::Mask, opaque);
-    leave_out(Feature::Blending, m.alpha_mode == AlphaMode::Blend, opaque);
+    disable(Feature::AlphaTest, m.alpha_mode == AlphaMode::Mask, opaque);
+    disable(Feature::Blending, m.alpha_mode == AlphaMode::Blend, opaque);
   }
 
   int TextureFor(int image, TextureRole role, bool mips, int channels, bool emission) {
@@ -160,15 +160,15 @@ FramePlan MakeFramePlan(const Scene& scene, const PosedScene& posed, const Rende
     return any([&](const FrameMaterial& m) { return m.Has(feature); });
   };
   const auto asked_out = [&](Feature feature) { return settings.without.Has(feature); };
-  // Either the frame uses it, or it is left out, and here is why.
+  // Records that the frame uses the feature, or why it is disabled.
   const auto decide = [&](bool used, Feature feature, const std::string& what, const char* why) {
     if (used) {
       plan.uses.Add(feature);
     } else {
-      plan.left_out.push_back(what + ": " + why);
+      plan.disabled.push_back(what + ": " + why);
     }
   };
-  // The same for what materials state: `none` is why where no drawn material does.
+  // The same for features that materials state; `none` is the reason if no drawn material states it.
   const auto decide_of_materials = [&](bool used, Feature feature, const std::string& what, const char* none) {
     decide(used, feature, what,
            !planner.stated.Has(feature) ? none
@@ -177,11 +177,11 @@ FramePlan MakeFramePlan(const Scene& scene, const PosedScene& posed, const Rende
   };
 
   for (const SlotInfo& slot : kSlots) {
-    if (slot.feature == Feature::Emission) continue;  // which is a factor first of all
+    if (slot.feature == Feature::Emission) continue;  // handled below, because it also has a factor
     decide_of_materials(any_has(BitOf(slot.slot)), slot.feature, std::string(slot.name) + "s",
                         "no drawn material has one");
   }
-  if (!any_has(kTangentSpaceBits)) plan.left_out.emplace_back("tangents: no normal texture is read");
+  if (!any_has(kTangentSpaceBits)) plan.disabled.emplace_back("tangents: no normal texture is read");
   decide_of_materials(any_has(kEmission), Feature::Emission, "emission", "no drawn material emits");
   decide_of_materials(any([](const FrameMaterial& m) { return m.vertex_colors; }), Feature::VertexColors,
                       "vertex colours", "no drawn geometry has them");
@@ -204,7 +204,7 @@ FramePlan MakeFramePlan(const Scene& scene, const PosedScene& posed, const Rende
          : lit            ? kOnRequest
                           : unlit);
   if (!plan.environment_background) {
-    plan.left_out.push_back(std::string("environment background: ") +
+    plan.disabled.push_back(std::string("environment background: ") +
                             (settings.background == Background::Environment ? "no environment" : "not asked for"));
   }
   decide(plan.punctual_lights, Feature::PunctualLights, "punctual lights",
@@ -220,8 +220,8 @@ FramePlan MakeFramePlan(const Scene& scene, const PosedScene& posed, const Rende
          : asked_out(Feature::MorphTargets) ? kOnRequest
                                             : "none of what is drawn has a weight");
   plan.planes = settings.planes;
-  if (plan.planes.empty()) plan.left_out.emplace_back("planes besides colour: not asked for");
-  if (settings.samples == 1) plan.left_out.emplace_back("multisampling: one sample a pixel");
+  if (plan.planes.empty()) plan.disabled.emplace_back("planes besides colour: not asked for");
+  if (settings.samples == 1) plan.disabled.emplace_back("multisampling: one sample a pixel");
   if (!settings.omit_unused) UseEverything(settings, plan);
   return plan;
 }

@@ -1,4 +1,5 @@
-// What this scene with these settings needs, and what it leaves out. Made once a frame, obeyed by every stage.
+// The plan of a frame: what this scene with these settings needs, and what is disabled. It is made once, and every stage
+// obeys it.
 #pragma once
 
 #include <array>
@@ -14,18 +15,18 @@ namespace facet {
 
 inline constexpr int kWhiteImage = -1;  // one white texel
 
-// A texture that has to be decoded: one image in one role.
+// One image that is read in one role, to be decoded if it is visible.
 struct PlannedTexture {
   int image = kWhiteImage;
   TextureRole role = TextureRole::Data;
   bool mips = false;
-  int channels = 0;       // that are read: bits of ChannelMask
-  bool emission = false;  // read for nothing else
+  int channels = 0;       // those that are read, as bits of ChannelMask
+  bool emission = false;  // read for emission only
 
   bool operator==(const PlannedTexture&) const = default;
 };
 
-// A material as one kind of drawable uses it.
+// A material as one kind of geometry uses it.
 struct PlannedMaterial {
   int material = -1;           // index into Scene::materials; -1: glTF's default
   bool vertex_colors = false;  // the geometry has colours
@@ -49,10 +50,10 @@ struct FramePlan {
   bool alpha_test = false;
   bool blending = false;
   std::vector<PlaneKind> planes;  // of the film, besides colour
-  bool dark_light = false;     // a light of no intensity shines as well
-  bool every_texture = false;  // decoded even if no visible material reads it
-  FeatureSet uses;             // of the scene; not what is only done to show that it changes nothing
-  std::vector<std::string> left_out;  // one line each: "WHAT: WHY"
+  bool zero_light = false;        // add a light of intensity zero
+  bool every_texture = false;  // decode textures even if no visible material reads them
+  FeatureSet uses;             // features of the scene that the frame uses; not those of UseEverything()
+  std::vector<std::string> disabled;  // one line each: "WHAT: WHY"
 };
 
 // The pose that a frame with these settings draws.

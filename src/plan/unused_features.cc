@@ -30,7 +30,7 @@ void UseWhiteTextures(PlannedMaterial& material, FramePlan& plan) {
 }  // namespace
 
 void UseEverything(const RenderSettings& settings, FramePlan& plan) {
-  for (PlannedTexture& texture : plan.textures) texture.emission = false;  // read where it is dark, too
+  for (PlannedTexture& texture : plan.textures) texture.emission = false;  // empty cells are read, too
   for (PlannedMaterial& material : plan.materials) UseWhiteTextures(material, plan);
   if (!plan.alpha_test) {
     for (PlannedMaterial& material : plan.materials) {
@@ -44,7 +44,7 @@ void UseEverything(const RenderSettings& settings, FramePlan& plan) {
   }
   plan.environment_light |=
       settings.environment.kind != EnvironmentSettings::Kind::None && !settings.without.Has(Feature::EnvironmentLight);
-  plan.dark_light = !plan.punctual_lights;
+  plan.zero_light = !plan.punctual_lights;
   plan.every_texture = true;
 }
 

@@ -14,13 +14,13 @@
 #define FACET_RASTER_BLOCKS_H_
 namespace facet {
 
-// The part of a triangle's bounding box that lies in the tile, in blocks and rows of it.
+// The part of a triangle's bounding box that lies in the tile, in blocks and rows of pixels.
 struct BlockRange {
   int x0, y0, x1, y1;       // blocks within the tile, inclusive
   int first_row, last_row;  // pixels within the tile
-  bool small;               // no larger than a block, so that it covers none wholly
+  bool small;               // no larger than a block, so that it covers no block completely
 
-  HWY_INLINE BlockRange(const TriangleRecord& r, const TileBuffers& tile) {
+  HWY_INLINE BlockRange(const ScreenTriangle& r, const TileBuffers& tile) {
     const int min_x = LeastOf(r.x_fx8), max_x = GreatestOf(r.x_fx8);
     const int min_y = LeastOf(r.y_fx8), max_y = GreatestOf(r.y_fx8);
     const int last_column_px = std::min((max_x >> kSubpixelBits) - tile.x0, tile.width - 1);
@@ -34,10 +34,10 @@ struct BlockRange {
   }
 };
 
-// What VisitCoverage (below) does, for a triangle whose few samples are known: visit(offset, sample, depth) for each
-// that passes the depth test, and end_pixel(x, y) after those of a pixel.
+// VisitCoverage (below) for a small triangle whose covered samples are known (ScreenTriangle::covered): calls
+// visit(offset, sample, depth) for each sample that passes the depth test, and end_pixel(x, y) after those of a pixel.
 template <bool kOrEqual, int kSamples, class Visit, class EndPixel>
-HWY_INLINE void VisitKnownCoverage(const TriangleRecord& r, const TileBuffers& tile, const SampleReach& reach,
+HWY_INLINE void VisitKnownCoverage(const ScreenTriangle& r, const TileBuffers& tile, const SampleReach& reach,
                                    const Visit& visit, const EndPixel& end_pixel) {
   const int samples_a_pixel = tile.Samples<kSamples>();
   const SamplePosition* pattern = SamplePattern(samples_a_pixel);
@@ -55,8 +55,8 @@ HWY_INLINE void VisitKnownCoverage(const TriangleRecord& r, const TileBuffers& t
         static_cast<unsigned>(y) >= static_cast<unsigned>(tile.height)) {
       continue;
     }
-    const std::size_t place = tile.Index(x, y, 0);
-    if (kSamples == 1 && (kOrEqual ? r.depth_max < tile.depth[place] : r.depth_max <= tile.depth[place])) continue;
+    const std::size_t index = tile.Index(x, y, 0);
+    if (kSamples == 1 && (kOrEqual ? r.depth_max < tile.depth[index] : r.depth_max <= tile.depth[index])) continue;
     const int in_block_x = x & (kBlockSize - 1), in_block_y = y & (kBlockSize - 1);
     const BlockDepth d = MakeBlockDepth(r, tile.x0 + x - in_block_x, tile.y0 + y - in_block_y);
     for (; samples != 0; samples &= samples - 1) {
@@ -64,14 +64,14 @@ HWY_INLINE void VisitKnownCoverage(const TriangleRecord& r, const TileBuffers& t
       constexpr float kUnit = 1.0f / kSampleGrid;
       const float depth = DepthAt(d, static_cast<float>(in_block_x * kSampleGrid + pattern[s].x) * kUnit,
                                   static_cast<float>(in_block_y * kSampleGrid + pattern[s].y) * kUnit);
-      const std::size_t offset = place + std::size_t(s * kBlockPixels);
+      const std::size_t offset = index + std::size_t(s * kBlockPixels);
       if (kOrEqual ? depth >= tile.depth[offset] : depth > tile.depth[offset]) visit(offset, s, depth);
     }
     end_pixel(x, y);
   }
 }
 
-inline void PrefetchRecord(const TriangleRecord& r) {
+inline void PrefetchRecord(const ScreenTriangle& r) {
   const char* bytes = reinterpret_cast<const char*>(&r);
   __builtin_prefetch(bytes);
   __builtin_prefetch(bytes + sizeof r - 1);
@@ -107,7 +107,7 @@ struct BlockEdges {
 struct TriangleEdges {
   std::int64_t a[3], b[3], c[3];  // of its edge functions, from the image's origin
 
-  HWY_INLINE explicit TriangleEdges(const TriangleRecord& r) {
+  HWY_INLINE explicit TriangleEdges(const ScreenTriangle& r) {
     for (int i = 0; i < 3; ++i) {
       const int j = i == 2 ? 0 : i + 1;
       const auto edge = MakeEdgeFunction<std::int64_t>(r.x_fx8[i], r.y_fx8[i], r.x_fx8[j], r.y_fx8[j]);
@@ -115,8 +115,8 @@ struct TriangleEdges {
     }
   }
 
-  // How a block lies: outside one edge, cut by some, or inside all. An edge that the whole block is inside of becomes
-  // 0 >= 0.
+  // Whether a block is outside of one edge, cut by some, or inside of all. An edge function that is positive in the whole
+  // block becomes 0, which passes everywhere.
   enum class Overlap { None, Part, Whole };
   HWY_INLINE Overlap InBlock(int x_px, int y_px, BlockEdges& out) const {
     constexpr std::int64_t kReach = kBlockSize * kSampleGrid - 1;
@@ -137,8 +137,8 @@ struct TriangleEdges {
     return overlap;
   }
 
-  // The same without asking, for triangles that are no larger than a block and touch this one with their bounding box:
-  // their edges fit 32 bits anywhere in it.
+  // The same without the test, for triangles that are no larger than a block and whose bounding box touches this one:
+  // their edge functions fit 32 bits anywhere in it.
   HWY_INLINE Overlap AcrossBlock(int x_px, int y_px, BlockEdges& out) const {
     for (int i = 0; i < 3; ++i) {
       out.a[i] = static_cast<std::int32_t>(a[i]);
@@ -148,8 +148,8 @@ struct TriangleEdges {
     return Overlap::Part;
   }
 
-  // Edge i at a block's corner, divided by 16, rounding down: a and b multiply whole sixteenths of a pixel, that is
-  // multiples of 16 fx8.
+  // Edge function i at a block's corner, divided by 16 and rounded down. Nothing is lost: samples lie on sixteenths of a
+  // pixel, which are multiples of 16 in fx8.
   HWY_INLINE std::int64_t Corner(int i, int x_px, int y_px) const {
     return (a[i] * (std::int64_t{x_px} << kSubpixelBits) + b[i] * (std::int64_t{y_px} << kSubpixelBits) +
             c[i]) >>
@@ -159,11 +159,11 @@ struct TriangleEdges {
 static_assert(kSubpixelScale / kSampleGrid == 16, "the shift in Corner");
 
 // Calls visit(offset, sample, passed, depth) for each group of lanes of each sample of each block that the triangle
-// touches: `offset` is the group's place in the tile's buffers, `passed` the lanes that are covered and pass the depth
+// touches: `offset` is the group's index in the tile's buffers, `passed` the lanes that are covered and pass the depth
 // test (nearer, or with kOrEqual not farther). end_group(block_x, block_y, first pixel) comes after all samples of a
 // group, end_block(block_x, block_y, wholly covered) after all groups of a block; block_x and block_y in blocks.
 template <bool kOrEqual, int kSamples, class Visit, class EndGroup, class EndBlock>
-HWY_INLINE void VisitCoverage(const TriangleRecord& r, const TileBuffers& tile, const Visit& visit,
+HWY_INLINE void VisitCoverage(const ScreenTriangle& r, const TileBuffers& tile, const Visit& visit,
                               const EndGroup& end_group, const EndBlock& end_block) {
   const int samples = tile.Samples<kSamples>();
   const SamplePosition* pattern = SamplePattern(samples);
@@ -175,8 +175,8 @@ HWY_INLINE void VisitCoverage(const TriangleRecord& r, const TileBuffers& tile, 
     for (int bx = range.x0; bx <= range.x1; ++bx) {
       const int x_px = tile.x0 + bx * kBlockSize, y_px = tile.y0 + by * kBlockSize;
       const std::size_t block_index = tile.BlockIndex(bx, by);
-      const float farthest = tile.farthest[block_index];
-      if (kOrEqual ? r.depth_max < farthest : r.depth_max <= farthest) continue;
+      const float min_depth = tile.min_depth[block_index];
+      if (kOrEqual ? r.depth_max < min_depth : r.depth_max <= min_depth) continue;
       BlockEdges e;
       const TriangleEdges::Overlap overlap =
           range.small ? edges.AcrossBlock(x_px, y_px, e) : edges.InBlock(x_px, y_px, e);
@@ -213,7 +213,7 @@ HWY_INLINE void VisitCoverage(const TriangleRecord& r, const TileBuffers& tile, 
 
 template <int kSamples>
 HWY_INLINE void Draw(const TileTriangles& triangles, TileBuffers& tile) {
-  constexpr std::size_t kAhead = 8;  // records, which lie in order only within a chunk
+  constexpr std::size_t kAhead = 8;  // records to prefetch ahead: only those of one chunk are in order in memory
   const SampleReach reach = ReachOf(tile.Samples<kSamples>());
   for (std::size_t t = 0; t < triangles.count; ++t) {
     if (t + kAhead < triangles.count) PrefetchRecord(*triangles.records[t + kAhead]);
@@ -222,19 +222,19 @@ HWY_INLINE void Draw(const TileTriangles& triangles, TileBuffers& tile) {
           *triangles.records[t], tile, reach,
           [&](std::size_t offset, int, float depth) {
             tile.depth[offset] = depth;
-            tile.record[offset] = triangles.numbers[t];
+            tile.record[offset] = triangles.ids[t];
           },
           [](int, int) {});
       continue;
     }
-    const Int number(triangles.numbers[t]);
+    const Int id(triangles.ids[t]);
     VisitCoverage<false, kSamples>(
         *triangles.records[t], tile,
         [&](std::size_t offset, int, Mask nearer, Float depth) HWY_ATTR {
           float* depths = tile.depth.data() + offset;
           std::int32_t* records = tile.record.data() + offset;
           Store(Select(nearer, depth, LoadFloat(depths)), depths);
-          Store(Select(nearer, number, LoadInt(records)), records);
+          Store(Select(nearer, id, LoadInt(records)), records);
         },
         [](int, int, int) HWY_ATTR {},
         [&](int block_x, int block_y, bool whole) HWY_ATTR {
@@ -246,7 +246,7 @@ HWY_INLINE void Draw(const TileTriangles& triangles, TileBuffers& tile) {
           for (std::size_t i = LaneCount(); i < size; i += LaneCount()) lowest = Min(lowest, LoadFloat(depths + i));
           alignas(64) float lanes[kMaxLanes];
           Store(lowest, lanes);
-          tile.farthest[block] = *std::min_element(lanes, lanes + LaneCount());
+          tile.min_depth[block] = *std::min_element(lanes, lanes + LaneCount());
         });
   }
 }
@@ -265,7 +265,7 @@ HWY_INLINE void Collect(const TileTriangles& triangles, const TileBuffers& tile,
           *triangles.records[t], tile, reach, [&](std::size_t, int s, float) { samples |= 1u << s; },
           [&](int x, int y) {
             if (samples == 0) return;
-            out.Push(static_cast<std::uint16_t>(y * tile.tile_size + x), triangles.numbers[t],
+            out.Push(static_cast<std::uint16_t>(y * tile.tile_size + x), triangles.ids[t],
                      static_cast<std::uint8_t>(samples));
             samples = 0;
           });
@@ -284,7 +284,7 @@ HWY_INLINE void Collect(const TileTriangles& triangles, const TileBuffers& tile,
             std::uint32_t samples = 0;
             for (int s = 0; s < tile.Samples<kSamples>(); ++s) samples |= (lanes_of[s] >> lane & 1u) << s;
             if (x < tile.width && y < tile.height) {
-              out.Push(static_cast<std::uint16_t>(y * tile.tile_size + x), triangles.numbers[t],
+              out.Push(static_cast<std::uint16_t>(y * tile.tile_size + x), triangles.ids[t],
                        static_cast<std::uint8_t>(samples));
             }
           }
@@ -318,7 +318,7 @@ void ClearTile(TileBuffers& tile) {
   const std::size_t size = std::size_t(tile.tile_size) * std::size_t(tile.tile_size) * std::size_t(tile.samples);
   tile.depth.assign(size, -std::numeric_limits<float>::infinity());
   tile.record.assign(size, kNoRecord);
-  tile.farthest.assign(size / std::size_t(tile.samples * kBlockPixels), -std::numeric_limits<float>::infinity());
+  tile.min_depth.assign(size / std::size_t(tile.samples * kBlockPixels), -std::numeric_limits<float>::infinity());
 }
 
 void RasterOpaque(const TileTriangles& triangles, TileBuffers& tile) {
@@ -332,7 +332,7 @@ void RasterCollect(const TileTriangles& triangles, const TileBuffers& tile, Frag
 namespace {
 
 template <int kSamples>
-void Write(const TriangleRecord& record, std::int32_t number, std::uint16_t pixel, std::uint8_t samples,
+void Write(const ScreenTriangle& record, std::int32_t id, std::uint16_t pixel, std::uint8_t samples,
            TileBuffers& tile) {
   const int x = pixel % tile.tile_size, y = pixel / tile.tile_size;
   const int block_x = x / kBlockSize * kBlockSize, block_y = y / kBlockSize * kBlockSize;
@@ -343,11 +343,11 @@ void Write(const TriangleRecord& record, std::int32_t number, std::uint16_t pixe
     const float depth = DepthAt(d, static_cast<float>((x - block_x) * kSampleGrid + pattern[s].x) / kSampleGrid,
                                 static_cast<float>((y - block_y) * kSampleGrid + pattern[s].y) / kSampleGrid);
     const std::size_t i = tile.Index(x, y, s);
-    if (depth > tile.depth[i]) tile.depth[i] = depth, tile.record[i] = number;
+    if (depth > tile.depth[i]) tile.depth[i] = depth, tile.record[i] = id;
   }
 }
 
-// The list grows once a tile and not fragment by fragment.
+// The list is resized once a tile, not for each fragment.
 template <int kSamples>
 void ListVisible(const TileBuffers& tile, FragmentList& out) {
   constexpr int kSquare = 4;
@@ -356,7 +356,7 @@ void ListVisible(const TileBuffers& tile, FragmentList& out) {
   std::size_t count = out.Size();
   out.Resize(count + std::size_t(tile.width * tile.height * samples));
   std::uint16_t* pixels = out.pixel.data();
-  std::int32_t* numbers = out.record.data();
+  std::int32_t* ids = out.record.data();
   std::uint8_t* masks = out.samples.data();
   for (int square_y = 0; square_y < tile.height; square_y += kSquare) {
     for (int square_x = 0; square_x < tile.width; square_x += kSquare) {
@@ -367,15 +367,15 @@ void ListVisible(const TileBuffers& tile, FragmentList& out) {
         for (int x = square_x; x < right; ++x, ++records) {
           for (std::uint32_t open = all; open != 0;) {
             const int s = kSamples == 1 ? 0 : __builtin_ctz(open);
-            const std::int32_t number = records[s * kBlockPixels];
+            const std::int32_t id = records[s * kBlockPixels];
             std::uint32_t same = 1u << s;
-            for (int k = s + 1; k < samples; ++k) same |= std::uint32_t{records[k * kBlockPixels] == number} << k;
+            for (int k = s + 1; k < samples; ++k) same |= std::uint32_t{records[k * kBlockPixels] == id} << k;
             same &= open;
             open &= ~same;
             pixels[count] = static_cast<std::uint16_t>(row + x);
-            numbers[count] = number;
+            ids[count] = id;
             masks[count] = static_cast<std::uint8_t>(same);
-            count += number != kNoRecord;
+            count += id != kNoRecord;
           }
         }
       }
@@ -386,9 +386,9 @@ void ListVisible(const TileBuffers& tile, FragmentList& out) {
 
 }  // namespace
 
-void WriteFragment(const TriangleRecord& record, std::int32_t number, std::uint16_t pixel, std::uint8_t samples,
+void WriteFragment(const ScreenTriangle& record, std::int32_t id, std::uint16_t pixel, std::uint8_t samples,
                    TileBuffers& tile) {
-  tile.samples == 1 ? Write<1>(record, number, pixel, samples, tile) : Write<0>(record, number, pixel, samples, tile);
+  tile.samples == 1 ? Write<1>(record, id, pixel, samples, tile) : Write<0>(record, id, pixel, samples, tile);
 }
 
 void VisibleFragments(const TileBuffers& tile, FragmentList& out) {

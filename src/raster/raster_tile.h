@@ -1,4 +1,4 @@
-// Coverage and depth: which triangle is seen at each sample of a tile.
+// The raster stage: coverage and the depth test, which decide the triangle that is seen at each sample of a tile.
 #pragma once
 
 #include <cstdint>
@@ -9,34 +9,35 @@ namespace facet {
 
 // Triangles of one tile, in submission order.
 struct TileTriangles {
-  const TriangleRecord* const* records = nullptr;
-  const std::int32_t* numbers = nullptr;  // of the records, within the tile
+  const ScreenTriangle* const* records = nullptr;
+  const std::int32_t* ids = nullptr;  // of the records within the tile
   std::size_t count = 0;
 };
 
-// Empties the tile: nothing visible.
+// Clears the depth and the records of all samples: nothing is visible.
 void ClearTile(TileBuffers& tile);
 
-// Draws opaque triangles: where a sample is covered and nearer than what is there, depth and record are replaced. At
-// equal depth the earlier triangle stays.
+// Draws opaque triangles: where a triangle covers a sample and is nearer than the tile's depth there, its depth and id
+// are stored. At equal depth the earlier triangle stays.
 void RasterOpaque(const TileTriangles& triangles, TileBuffers& tile);
 
-// Which fragments RasterCollect takes: those nearer than what is in the tile, or also those just as near (a transparent
-// layer that lies in an opaque surface is seen).
+// The depth test of RasterCollect: fragments must be nearer than the tile's depth, or may also be equally near (so that
+// a transparent layer that lies in an opaque surface is visible).
 enum class CollectDepth : std::uint8_t { Nearer, NearerOrEqual };
 
-// Collects the fragments of triangles that pass the depth test against the tile, which stays as it is. In triangle
-// order; those of one triangle in any.
+// Lists the fragments that pass the depth test against the tile, without changing the tile. They are in the order of the
+// triangles; those of one triangle are in no particular order.
 void RasterCollect(const TileTriangles& triangles, const TileBuffers& tile, FragmentList& out,
                    CollectDepth test = CollectDepth::Nearer);
 
-// Writes one collected fragment into the tile, sample by sample, where it still is the nearest. For alpha-tested
-// fragments that passed.
-void WriteFragment(const TriangleRecord& record, std::int32_t number, std::uint16_t pixel, std::uint8_t samples,
+// Stores depth and id of one listed fragment at those of its samples where it is still the nearest: for alpha-tested
+// fragments that passed the test.
+void WriteFragment(const ScreenTriangle& record, std::int32_t id, std::uint16_t pixel, std::uint8_t samples,
                    TileBuffers& tile);
 
-// The visible (pixel, triangle) pairs with the samples at which each is visible. By squares of 4 x 4 pixels, row by row
-// and so within each: what is shaded together then lies close together in textures.
+// Lists the visible (pixel, triangle) pairs, each with the samples at which it is visible. The order is by squares of
+// 4 x 4 pixels, row by row, and row by row within each, so that fragments that are shaded together read neighbouring
+// texels.
 void VisibleFragments(const TileBuffers& tile, FragmentList& out);
 
 }  // namespace facet

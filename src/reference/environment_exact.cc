@@ -40,11 +40,11 @@ Found FindIn(const double* sums, int count, double value) {
 ExactEnvironment::ExactEnvironment(const EnvironmentSettings& settings)
     : cosine_(Cos(settings.rotation)), sine_(Sin(settings.rotation)), intensity_(settings.intensity) {
   const bool is_studio = settings.kind == EnvironmentSettings::Kind::Studio;
-  const auto picture = is_studio ? nullptr : PictureOf(settings);
-  if (!is_studio) CheckImage(*picture, "environment");
-  const std::size_t pixels = is_studio ? std::size_t(kStudioWidth) * kStudioHeight : picture->PixelCount();
+  const auto image = is_studio ? nullptr : ImageOf(settings);
+  if (!is_studio) CheckImage(*image, "environment");
+  const std::size_t pixels = is_studio ? std::size_t(kStudioWidth) * kStudioHeight : image->PixelCount();
   held_ = MemoryLease(pixels, 2 * 3 * sizeof(float) + sizeof(double), "the environment");  // and a linear copy
-  const Image linear = ToLinearRgb32F(is_studio ? StudioPicture(kStudioWidth, kStudioHeight) : *picture);
+  const Image linear = ToLinearRgb32F(is_studio ? StudioImage(kStudioWidth, kStudioHeight) : *image);
   width_ = linear.width;
   height_ = linear.height;
   rgb_.assign(linear.As<float>(), linear.As<float>() + linear.PixelCount() * 3);

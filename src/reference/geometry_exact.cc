@@ -134,7 +134,7 @@ void ExactGeometry::AddLine(Shape& shape) {
   Add(shape, glm::min(wide.from, wide.to) - 0.5, glm::max(wide.from, wide.to) + 0.5);
 }
 
-// The square of one pixel around the point, if that is in the picture itself.
+// The square of one pixel around the point, if that is in the image itself.
 void ExactGeometry::AddPoint(Shape& shape) {
   if (shape.distance[0] < view_.near_distance || shape.distance[0] > view_.far_distance) return;
   const glm::dvec2 place = view_.PlaceOf(shape.screen[0]);

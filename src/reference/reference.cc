@@ -33,8 +33,8 @@ void CheckRange(const char* what, double value, double low, double high) {
 
 void CheckSettings(const RenderSettings& settings, const ReferenceSettings& reference) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  CheckRange("a width", settings.width, 1, kMaxPictureSize);
-  CheckRange("a height", settings.height, 1, kMaxPictureSize);
+  CheckRange("a width", settings.width, 1, kMaxImageSize);
+  CheckRange("a height", settings.height, 1, kMaxImageSize);
   CheckThreads(settings.threads);
   CheckRange("an environment rotation", settings.environment.rotation, -1e9, 1e9);
   CheckRange("an environment intensity", settings.environment.intensity, 0, 1e30);

@@ -7,10 +7,10 @@
 
 namespace facet {
 
-std::vector<PixelBlock> SpreadBlocks(int picture_width, int picture_height, std::uint64_t seed) {
-  const int columns = (picture_width + kBlockSide - 1) / kBlockSide;
-  const int rows = (picture_height + kBlockSide - 1) / kBlockSide;
-  // The first side * side points lie in as many different cells of a square; those cells that the picture has count.
+std::vector<PixelBlock> SpreadBlocks(int image_width, int image_height, std::uint64_t seed) {
+  const int columns = (image_width + kBlockSide - 1) / kBlockSide;
+  const int rows = (image_height + kBlockSide - 1) / kBlockSide;
+  // The first side * side points lie in as many different cells of a square; those cells that the image has count.
   // That favours some of them, where it has not all: so all are moved by as much, and come in again at the other side.
   const std::uint32_t side = std::bit_ceil(std::uint32_t(std::max(columns, rows)));
   const std::uint64_t random = MixBits(MixBits(seed) ^ 0xB10C5u);
@@ -22,7 +22,7 @@ std::vector<PixelBlock> SpreadBlocks(int picture_width, int picture_height, std:
     const glm::dvec2 cell = sequence.Point(0, i) * double(side);
     if (!(cell.x < columns && cell.y < rows)) continue;
     const int x = (int(cell.x) + right) % columns * kBlockSide, y = (int(cell.y) + down) % rows * kBlockSide;
-    blocks.push_back({x, y, std::min(kBlockSide, picture_width - x), std::min(kBlockSide, picture_height - y)});
+    blocks.push_back({x, y, std::min(kBlockSide, image_width - x), std::min(kBlockSide, image_height - y)});
   }
   return blocks;
 }

@@ -19,6 +19,6 @@ inline constexpr int kBlockSide = 16;  // pixels; smaller at the right and botto
 
 // All blocks of an image, in an order in which the first ones are spread evenly over it: that of a scrambled Sobol
 // sequence, in which all blocks are equally likely at every position, so that the first n are an unbiased sample.
-std::vector<PixelBlock> SpreadBlocks(int picture_width, int picture_height, std::uint64_t seed);
+std::vector<PixelBlock> SpreadBlocks(int image_width, int image_height, std::uint64_t seed);
 
 }  // namespace facet

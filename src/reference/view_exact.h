@@ -15,11 +15,11 @@ namespace facet {
 // where y points up and `pixel` is the size of a pixel. w is the distance along the viewing axis; for an orthographic
 // camera 1.
 struct ExactView {
-  ExactView(const ResolvedCamera& camera, int picture_width, int picture_height)
-      : width(picture_width),
-        height(picture_height),
+  ExactView(const ResolvedCamera& camera, int image_width, int image_height)
+      : width(image_width),
+        height(image_height),
         perspective(!camera.lens.orthographic),
-        pixel(2.0 * (perspective ? Tan(0.5 * camera.lens.yfov) : camera.lens.ymag) / picture_height),
+        pixel(2.0 * (perspective ? Tan(0.5 * camera.lens.yfov) : camera.lens.ymag) / image_height),
         near_distance(std::max(camera.lens.znear, perspective ? kLeastDistance : -kMostDistance)),
         far_distance(perspective ? camera.lens.zfar : std::min(camera.lens.zfar, kMostDistance)),
         eye_world(camera.world_from_camera[3]),

@@ -19,13 +19,13 @@ void Refuse(const std::string& what, const std::string& accepted) {
 }  // namespace
 
 void CheckSettings(const RenderSettings& s) {
-  const auto size_ok = [](int n) { return n >= 1 && n <= kMaxPictureSize; };
+  const auto size_ok = [](int n) { return n >= 1 && n <= kMaxImageSize; };
   if (!size_ok(s.width) || !size_ok(s.height)) {
     const double bytes = double(s.width) * s.height * sizeof(glm::vec4);
-    const double most = double(kMaxPictureSize) * kMaxPictureSize * sizeof(glm::vec4);
+    const double most = double(kMaxImageSize) * kMaxImageSize * sizeof(glm::vec4);
     Refuse("a picture of " + std::to_string(s.width) + " x " + std::to_string(s.height) + " pixels" +
                (bytes > most && s.width > 0 ? " needs " + BytesText(bytes) : ""),
-           "each side is 1 to " + std::to_string(kMaxPictureSize) + ", " + BytesText(most) + " in all");
+           "each side is 1 to " + std::to_string(kMaxImageSize) + ", " + BytesText(most) + " in all");
   }
   if (s.samples != 1 && s.samples != 2 && s.samples != 4 && s.samples != 8) {
     Refuse(std::to_string(s.samples) + " samples per pixel", "1, 2, 4 or 8 are accepted");

@@ -1,4 +1,4 @@
-// The environment behind the scene, composited under what a tile shows.
+// The environment behind the scene, composited under the pixels of a tile.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -10,17 +10,17 @@
 
 namespace facet {
 
-// What is the same for all tiles of a frame. Thread-safe.
+// Serves all tiles of a frame. Thread-safe.
 class EnvironmentBackground {
  public:
-  // Nothing is behind the scene.
+  // A transparent background.
   EnvironmentBackground() = default;
   EnvironmentBackground(const FrameView& view, const LightingData& lighting)
       : lighting_(&lighting), directions_(MakeViewDirections(view)) {}
 
   bool IsThere() const { return lighting_ != nullptr; }
 
-  // Of pixels that are not wholly covered. `pixels`: of the tile, tile_size a row.
+  // Changes the pixels that are not completely covered. `pixels`: of the tile, tile_size a row.
   void CompositeUnder(const TileBuffers& tile, std::vector<glm::vec4>& pixels) const;
 
  private:

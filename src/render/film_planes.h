@@ -14,8 +14,7 @@ void CheckPlanes(const std::vector<PlaneKind>& planes);
 // For a film, or a band of one, of this size. Throws Error(OutOfMemory).
 void ChargePlanes(const std::vector<PlaneKind>& planes, int width, int rows, MemoryBudget& budget);
 
-// Makes the film's planes these, as large as the film says that it is; their pixels are not set. Their memory is used
-// again.
+// Gives the film these planes, of its width and height, reusing their memory. Their pixels are not set.
 void SizePlanes(const std::vector<PlaneKind>& planes, Film& film);
 
 }  // namespace facet

@@ -10,17 +10,16 @@
 namespace facet {
 namespace {
 
-// The environment's picture, its copies in linear light, and its maps.
-void Count(const Image& picture, const EnvironmentOptions& options, MemoryBudget& budget) {
-  const auto size = std::size_t(SharpestLevelSize(picture.width, options.max_size));
-  const std::size_t floats = picture.PixelCount() * (options.keep_picture ? 2 : 1) + 3 * size * size;
-  budget.Charge(
-      picture.bytes.size() + floats * 4 * sizeof(float), 1,
-      "an environment of " + std::to_string(picture.width) + " x " + std::to_string(picture.height) + " pixels", {},
-      "scale it down");
+// Charges the environment's image, its copies in linear light, and its prefiltered maps.
+void Count(const Image& image, const EnvironmentOptions& options, MemoryBudget& budget) {
+  const auto size = std::size_t(SharpestLevelSize(image.width, options.max_size));
+  const std::size_t floats = image.PixelCount() * (options.keep_image ? 2 : 1) + 3 * size * size;
+  budget.Charge(image.bytes.size() + floats * 4 * sizeof(float), 1,
+                "an environment of " + std::to_string(image.width) + " x " + std::to_string(image.height) + " pixels",
+                {}, "scale it down");
 }
 
-std::size_t BytesOf(const EnvironmentMap& map) { return (map.texels.size() + map.picture.size()) * sizeof(float); }
+std::size_t BytesOf(const EnvironmentMap& map) { return (map.texels.size() + map.image.size()) * sizeof(float); }
 
 constexpr const char* kPrepared = "a prepared environment";
 
@@ -33,10 +32,10 @@ std::shared_ptr<const EnvironmentMap> FromSource(const EnvironmentSource& source
   std::uint64_t admitted = 0;
   if (auto kept = source.Find(options, [&](std::uint64_t bytes) { CountPrepared(admitted = bytes, budget); }))
     return kept;
-  budget.Release(admitted, kPrepared);  // what is found but is of no use takes no memory
-  const auto picture = source.Picture();
-  Count(*picture, options, budget);
-  auto map = PrefilterEnvironment(*picture, options);
+  budget.Release(admitted, kPrepared);  // a cached map that is of no use takes no memory
+  const auto image = source.Decode();
+  Count(*image, options, budget);
+  auto map = PrefilterEnvironment(*image, options);
   const std::string warning = source.Keep(options, *map);
   if (!warning.empty()) warnings.push_back(warning);
   return map;
@@ -49,9 +48,9 @@ const EnvironmentMap* FrameEnvironment::Prepare(const FramePlan& plan, const Ren
   if (!plan.environment_light && !plan.environment_background) return nullptr;
   const EnvironmentOptions options{plan.environment_background, settings.environment_size, settings.environment_samples,
                                    settings.irradiance};
-  const bool is_picture = settings.environment.kind == EnvironmentSettings::Kind::Image;  // otherwise the studio
-  const auto image = is_picture ? settings.environment.image : nullptr;
-  const auto source = is_picture && image == nullptr ? settings.environment.source : nullptr;
+  const bool is_image = settings.environment.kind == EnvironmentSettings::Kind::Image;  // otherwise the studio
+  const auto image = is_image ? settings.environment.image : nullptr;
+  const auto source = is_image && image == nullptr ? settings.environment.source : nullptr;
   const bool known = map_ != nullptr && options == options_ && image == image_ && source == source_;
   if (image != nullptr) Count(*image, options, budget);
   if (known && source != nullptr) CountPrepared(BytesOf(*map_), budget);

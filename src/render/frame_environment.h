@@ -1,4 +1,4 @@
-// The environment of a frame, prepared as its settings ask, and kept for the next frame.
+// The environment of a frame, prefiltered as its settings ask, and kept for the next frame.
 #pragma once
 
 #include <memory>
@@ -12,8 +12,8 @@ namespace facet {
 
 class FrameEnvironment {
  public:
-  // Null where the plan needs none. It is prepared anew only where the settings are others than the last frame's. What
-  // it takes is charged to the budget. Throws Error(OutOfMemory) and what reading the environment's source throws.
+  // Null if the plan needs none. It is prefiltered again only if the settings differ from those of the last frame. Its
+  // memory is charged to the budget. Throws Error(OutOfMemory) and what reading the environment's source throws.
   const EnvironmentMap* Prepare(const FramePlan& plan, const RenderSettings& settings, MemoryBudget& budget,
                                 RenderStats& stats);
 

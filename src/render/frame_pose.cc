@@ -18,8 +18,8 @@ const PosedScene& FramePose::Pose(const PoseSettings& settings) {
   if (!posed_ || settings != settings_) {
     posed_.reset();
     with_tangents_.clear();
-    PosedScene posed = PoseIncomplete(scene_, settings);
-    with_tangents_.resize(posed.incomplete.size());
+    PosedScene posed = PoseWithoutTangents(scene_, settings);
+    with_tangents_.resize(posed.needs_tangents.size());
     settings_ = settings;
     posed_ = std::move(posed);
   }
@@ -32,7 +32,7 @@ WorkBeside FramePose::TangentsOf(const std::vector<bool>& drawable_visible, bool
   WorkBeside work;
   std::vector<std::size_t> missing;
   for (std::size_t i = 0; i < with_tangents_.size(); ++i) {
-    const std::vector<std::size_t>& drawables = posed_->incomplete[i].drawables;
+    const std::vector<std::size_t>& drawables = posed_->needs_tangents[i].drawables;
     const bool needed = all || std::any_of(drawables.begin(), drawables.end(),
                                            [&](std::size_t drawable) { return bool(drawable_visible[drawable]); });
     if (!needed || !with_tangents_[i].positions.empty()) continue;
@@ -44,7 +44,7 @@ WorkBeside FramePose::TangentsOf(const std::vector<bool>& drawable_visible, bool
       for (std::size_t m = begin; m < end; ++m) {
         const std::size_t i = missing[m];
         MemoryLease lease(facet::HeldBytes(WithoutTangents(i)), 1, kPosed);
-        with_tangents_[i] = Completed(WithoutTangents(i), posed_->incomplete[i].normal_map);
+        with_tangents_[i] = WithTangents(WithoutTangents(i), posed_->needs_tangents[i].normal_map);
         lease = MemoryLease();
         MemoryBudget::Current().Charge(facet::HeldBytes(with_tangents_[i]), 1, kPosed);
       }
@@ -59,7 +59,7 @@ std::vector<const Primitive*> FramePose::Attributes() const {
   for (const Drawable& drawable : posed_->drawables) attributes.push_back(drawable.geometry);
   for (std::size_t i = 0; i < with_tangents_.size(); ++i) {
     if (with_tangents_[i].positions.empty()) continue;
-    for (const std::size_t drawable : posed_->incomplete[i].drawables) attributes[drawable] = &with_tangents_[i];
+    for (const std::size_t drawable : posed_->needs_tangents[i].drawables) attributes[drawable] = &with_tangents_[i];
   }
   return attributes;
 }
@@ -77,7 +77,7 @@ std::uint64_t FramePose::HeldByTangents() const {
 }
 
 const Primitive& FramePose::WithoutTangents(std::size_t i) const {
-  return *posed_->drawables[posed_->incomplete[i].drawables[0]].geometry;
+  return *posed_->drawables[posed_->needs_tangents[i].drawables[0]].geometry;
 }
 
 }  // namespace facet

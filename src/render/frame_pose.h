@@ -1,4 +1,4 @@
-// The scene in the pose of a frame, kept for the next frame that has the same.
+// The pose of a frame, kept for the next frame with the same settings.
 #pragma once
 
 #include <cstdint>
@@ -10,21 +10,21 @@
 
 namespace facet {
 
-// Tangents are generated late, once visibility is known: only for geometry that is visible.
+// Tangents are generated after visibility is known, and only for geometry that is visible.
 class FramePose {
  public:
   explicit FramePose(const Scene& scene) : scene_(scene) {}
 
-  // PoseIncomplete(). Charges the current memory budget with what it holds.
+  // PoseWithoutTangents(). Its memory is charged to the current budget.
   const PosedScene& Pose(const PoseSettings& settings);
 
-  // The work of generating the tangents that visible drawables, or all, need and do not have yet.
+  // The work of generating the tangents that visible drawables, or all, need and do not have.
   WorkBeside TangentsOf(const std::vector<bool>& drawable_visible, bool all);
 
   // By drawable: its geometry, with tangents where they were needed and visible.
   std::vector<const Primitive*> Attributes() const;
 
-  // Of what was deformed or got tangents.
+  // The memory of geometry that was deformed or got tangents.
   std::uint64_t HeldBytes() const;
 
  private:
@@ -34,7 +34,7 @@ class FramePose {
   const Scene& scene_;
   PoseSettings settings_;
   std::optional<PosedScene> posed_;
-  std::vector<Primitive> with_tangents_;  // in place of posed_->incomplete; empty: was not visible yet
+  std::vector<Primitive> with_tangents_;  // in place of posed_->needs_tangents; empty: was not visible yet
 };
 
 }  // namespace facet

@@ -9,7 +9,7 @@ namespace facet {
 
 FrameView MakeFrameView(const ResolvedCamera& camera, int width, int height);
 
-// The direction from the eye through a point of the picture (pixels), world axes, not normalised; for an orthographic
+// The direction from the eye through a point of the image (pixels), world axes, not normalised; for an orthographic
 // camera, the direction in which it looks.
 glm::dvec3 DirectionThrough(const FrameView& view, double x, double y);
 

@@ -56,7 +56,7 @@ void RunGeometry(const FrameView& view, const PosedScene& posed, const FramePlan
       chunk.primitive_count = std::min(kChunkPrimitives, drawable.primitive_count - b);
     }
     vertex_count += n;
-    if (vertex_count > INT32_MAX / 3) {  // lanes index positions number by number
+    if (vertex_count > INT32_MAX / 3) {  // lanes index the components of positions with 32 bits
       throw Error(ErrorCode::OutOfMemory, "the scene has more than 715,827,882 vertices at once", {},
                   "render it in parts");
     }
@@ -102,7 +102,7 @@ void RunGeometry(const FrameView& view, const PosedScene& posed, const FramePlan
 MemoryLease ListTiles(const FramePlan& plan, int first, int end, FrameGeometry& frame) {
   std::uint64_t runs = 0;
   for (const TriangleChunk& chunk : frame.chunks) runs += chunk.tiles.size();
-  // A list that grows has two copies of what it holds for a moment.
+  // While a list grows, its content exists twice.
   MemoryLease lease(3 * sizeof(TileRun) * runs + 3 * sizeof(std::vector<TileRun>) * std::uint64_t(end - first), 1,
                     kTileListsCharge);
   for (auto* lists : {&frame.lists.opaque, &frame.lists.masked, &frame.lists.blended}) {

@@ -22,13 +22,13 @@ struct FrameGeometry {
   VertexBuffer vertices;
 };
 
-// Fills `frame` but for its lists; whatever it held is lost. `posed` must outlive it, and may be incomplete. What the
+// Fills `frame` except for its lists, replacing its content. `posed` must outlive it, and may lack tangents. What the
 // frame takes is charged to the current memory budget. Throws Error(OutOfMemory).
 void RunGeometry(const FrameView& view, const PosedScene& posed, const FramePlan& plan, const TileGrid& grid,
                  int samples, FrameGeometry& frame, RenderStats& stats);
 
 // Fills the lists for tiles [first, end) of the grid: those of tile `first` are the first. There are no more lists than
-// that, so that a band of a large picture needs few. The lease is what they take.
+// that, so that a band of a large image needs few. The lease is what they take.
 MemoryLease ListTiles(const FramePlan& plan, int first, int end, FrameGeometry& frame);
 
 }  // namespace facet

@@ -11,18 +11,19 @@
 namespace facet {
 namespace {
 
-// Pixels. A fragment lies within the snapped triangle, whose corners are off their places by no more than kOff; its
-// attributes, and so its place, are those of the true triangle, whose edge it reads where it lies beyond. That moves
-// it, and lines and points are wider than the places that they are lit at: by less than kBorder in all.
+// In pixels. A fragment lies within the snapped triangle, whose corners have moved by at most kOff. Its attributes, hence
+// the position at which it is lit, are those of the unsnapped triangle, clamped to its edges. That moves the position, and
+// lines and points are wider than the positions at which they are lit: by less than kBorder in all.
 constexpr double kOff = 1.0 / 64.0;
 constexpr double kBorder = 2.0;
-// Of the largest number in a sum of three floats.
+// The error of a sum of three floats, relative to the largest of them.
 constexpr double kRounding = 0x1p-21;
 
-// So thin that its fragments may be lit anywhere along it: it has its area from snapping, or its weights are clamped.
-// (Of a triangle at least 1/128 as high as it is long, what is off by kOff moves by 128 kOff along an edge.)
-bool IsSliver(const TriangleRecord& r) {
-  if (r.kind != RecordKind::Triangle) return false;
+// Whether a triangle is so thin that its fragments may be lit anywhere along it, because its area comes from snapping or
+// its weights are clamped. (In a triangle at least 1/128 as high as it is long, an error of kOff moves a position by at
+// most 128 kOff along an edge.)
+bool IsSliver(const ScreenTriangle& r) {
+  if (r.kind != ScreenTriangleKind::Triangle) return false;
   std::int64_t longest2 = 0, area2 = 0;
   for (int i = 0, j = 2; i < 3; j = i++) {
     const std::int64_t x = std::int64_t(r.x_fx8[i]) - r.x_fx8[j], y = std::int64_t(r.y_fx8[i]) - r.y_fx8[j];
@@ -37,7 +38,7 @@ double LengthXy(const glm::dvec3& v) { return glm::length(glm::dvec2(v)); }
 
 }  // namespace
 
-bool LitBox::Add(const TriangleRecord& record, const FrameDrawable& drawable) {
+bool LitBox::Add(const ScreenTriangle& record, const FrameDrawable& drawable) {
   if (record.clipped) return AddPiece(record, drawable);
   AddDepths(double(record.depth_min), double(record.depth_max));
   return !IsSliver(record);
@@ -51,9 +52,9 @@ void LitBox::AddDepths(double farthest, double nearest) {
 // A piece's fragments lie on the whole triangle's plane, and where that is seen at a low angle, 1/256 of a pixel beyond
 // a cut can be any distance beyond it. (x, y, 1) of a pixel is the sum of e[k] h[k] over the true corners, in
 // homogeneous screen space; with e[k] off by d, a fragment is lit as if it lay d |h[k].xy - h[k].z (x, y)| elsewhere.
-bool LitBox::AddPiece(const TriangleRecord& record, const FrameDrawable& drawable) {
+bool LitBox::AddPiece(const ScreenTriangle& record, const FrameDrawable& drawable) {
   const std::array<std::uint32_t, 3> vertex = PrimitiveVertices(*drawable.geometry, record.primitive);
-  const int corners = record.kind == RecordKind::Line ? 2 : 3;
+  const int corners = record.kind == ScreenTriangleKind::Line ? 2 : 3;
   const double radius = 0.5 * glm::length(glm::dvec2(tile_.width, tile_.height));  // the origin is the tile's centre
   const double center_x = tile_.x0 + 0.5 * tile_.width, center_y = tile_.y0 + 0.5 * tile_.height;
   glm::dvec3 h[3];
@@ -110,7 +111,7 @@ void LitBox::Corners(glm::dvec3& low, glm::dvec3& high) const {
       low = glm::min(low, p), high = glm::max(high, p);
     }
   }
-  // Places are sums of corners, which may lie far outside the picture.
+  // Positions are weighted sums of corners, which may lie far outside of the image.
   const glm::dvec3 guard(kGuardBand / view_.screen_x.x, kGuardBand / view_.screen_y.y, 1.0);
   const double rounding = kRounding * std::max(size_, glm::length(guard) / farthest_);
   low -= rounding, high += rounding;

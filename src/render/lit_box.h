@@ -1,4 +1,4 @@
-// Where the fragments of a tile are lit: lights that end before it can be left out.
+// A bounding box of the positions at which the fragments of a tile are lit, to cull lights whose range ends before it.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -9,20 +9,20 @@
 
 namespace facet {
 
-// The box around the places at which fragments of triangles are lit, of a perspective view. It errs on the large side
-// only: a light that reaches no part of it gives nothing to any of them.
+// For perspective views. The box is conservative: a light that does not reach it contributes exactly nothing to any of the
+// fragments.
 class LitBox {
  public:
   LitBox(const FrameView& view, const TileBuffers& tile) : view_(view), tile_(tile) {}
 
-  // Widens it by the fragments that a triangle has in the tile. False: nothing bounds them.
-  bool Add(const TriangleRecord& record, const FrameDrawable& drawable);
+  // Extends the box by the fragments that a triangle has in the tile. False: they have no bound.
+  bool Add(const ScreenTriangle& record, const FrameDrawable& drawable);
 
   // Relative to the eye, world axes; after the first Add().
   void Corners(glm::dvec3& low, glm::dvec3& high) const;
 
  private:
-  bool AddPiece(const TriangleRecord& record, const FrameDrawable& drawable);
+  bool AddPiece(const ScreenTriangle& record, const FrameDrawable& drawable);
   void AddDepths(double farthest, double nearest);
 
   const FrameView& view_;

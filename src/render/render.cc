@@ -10,7 +10,7 @@
 #include "base/parallel.h"
 #include "facet/error.h"
 #include "facet/shader/dispatch.h"
-#include "film/develop_pixels.h"
+#include "film/encode_pixels.h"
 #include "plan/frame_plan.h"
 #include "render/check_settings.h"
 #include "render/film_planes.h"
@@ -18,7 +18,7 @@
 #include "render/frame_pose.h"
 #include "render/frame_view.h"
 #include "render/geometry_pass.h"
-#include "render/picture_warnings.h"
+#include "render/image_warnings.h"
 #include "render/texture_pass.h"
 #include "render/tile_pass.h"
 #include "scene/camera.h"
@@ -54,26 +54,24 @@ void PrepareFilm(int width, int rows, Film& film) {
 
 }  // namespace
 
-// Where a frame goes: to a film, whole or a band of rows after the other in the same memory, or to a picture.
+// The output of a frame: a film, whole or in bands that use the same memory, or an image.
 struct Renderer::FrameOutput {
   Film* film = nullptr;
-  int max_rows = kMaxPictureSize;         // of a band
+  int max_rows = kMaxImageSize;           // of a band
   const BandReceiver* receive = nullptr;  // called for each band; may be null
-  Image* picture = nullptr;               // where there is no film
-  DevelopTask develop;
+  Image* image = nullptr;                 // where there is no film
+  EncodeTask encode;
 
-  // Of the rows that are in memory at once.
+  // Charges the rows that are in memory at once.
   void Charge(int width, int rows, MemoryBudget& budget) const {
-    budget.Charge(std::uint64_t(width) * std::uint64_t(rows),
-                  film != nullptr ? sizeof(glm::vec4) : develop.PixelBytes(),
+    budget.Charge(std::uint64_t(width) * std::uint64_t(rows), film != nullptr ? sizeof(glm::vec4) : encode.PixelBytes(),
                   (film != nullptr ? "a film of " : "a picture of ") + std::to_string(width) + " x " +
                       std::to_string(rows) + " pixels",
                   {}, "make the picture smaller");
   }
 };
 
-// Draws frames, stage by stage. What frames share is kept, and made anew where the settings that it was made for are
-// others.
+// Draws frames, stage by stage, and keeps what frames share. Each part of it is computed again only if its settings change.
 class Renderer::Frames {
  public:
   explicit Frames(const Scene& scene) : scene_(scene), pose_(scene) {}
@@ -91,7 +89,7 @@ class Renderer::Frames {
     budget.Charge(HeldBytes(scene_), 1, "the scene", {}, "leave some out");
     const PosedScene& posed = pose_.Pose(PoseOf(settings));
     const FramePlan plan = MakeFramePlan(scene_, posed, settings);
-    stats.left_out = plan.left_out;
+    stats.disabled = plan.disabled;
     const ResolvedCamera camera =
         ResolveCamera(settings.camera, scene_, posed, settings.width, settings.height, &known_ball_);
     stats.camera = {camera.world_from_camera, camera.lens};
@@ -113,23 +111,23 @@ class Renderer::Frames {
     std::vector<PunctualLight> lights;
     if (plan.punctual_lights) lights = MakePunctualLights(posed.lights, view.eye_world);
     Warn(WhyNothingIsLit(plan, geometry_.material_visible, !lights.empty(), settings), stats);
-    if (plan.dark_light) lights.emplace_back().type = LightType::Directional;
+    if (plan.zero_light) lights.emplace_back().type = LightType::Directional;
     const LightingData all_light =
         MakeLightingData(lights, environment, settings.environment.rotation, settings.environment.intensity);
     LightingData lighting = all_light;
-    if (!plan.environment_light) lighting.environment = nullptr;  // seen behind the scene at most
+    if (!plan.environment_light) lighting.environment = nullptr;  // it may still be the background
     const EnvironmentBackground background =
         plan.environment_background ? EnvironmentBackground(view, all_light) : EnvironmentBackground();
     stats.environment_seconds = stage.Lap();
 
     const TiledView tiled{view, geometry_, attributes, materials, grid, settings.samples};
     const TilePassInput input{tiled, lighting, /*cull_lights=*/!settings.HasShaders(), background, settings.progress};
-    TileOutput pixels{nullptr, output.develop, {}};
+    TileOutput pixels{nullptr, output.encode, {}};
     if (output.film != nullptr) {
       PrepareFilm(settings.width, band_rows, *output.film);
     } else {
-      SizeForTask(output.develop, settings.width, settings.height, *output.picture);
-      pixels.develop.out = output.picture->bytes.data();
+      SizeForTask(output.encode, settings.width, settings.height, *output.image);
+      pixels.encode.out = output.image->bytes.data();
     }
     for (int row = 0; row < grid.rows; row += band_tiles) {
       const int end = std::min(row + band_tiles, grid.rows), first = row * grid.tile_size;
@@ -180,15 +178,15 @@ void Renderer::RenderBands(const RenderSettings& settings, int max_rows, const B
   Draw(settings, output, stats);
 }
 
-void Renderer::RenderPicture(const RenderSettings& settings, const DisplaySettings& display, Image& picture,
-                             RenderStats* stats, ChannelType type) {
+void Renderer::RenderImage(const RenderSettings& settings, const DisplaySettings& display, Image& image,
+                           RenderStats* stats, ChannelType type) {
   if (!settings.planes.empty()) {
     throw Error(ErrorCode::InvalidUsage, "planes besides colour of a picture", "render settings",
                 "Render() gives a film, which has them");
   }
   FrameOutput output;
-  output.picture = &picture;
-  output.develop = MakeDevelopTask(display, type);
+  output.image = &image;
+  output.encode = MakeEncodeTask(display, type);
   Draw(settings, output, stats);
 }
 

@@ -1,4 +1,4 @@
-// The same picture without rounding in between.
+// The same image without rounding in between.
 #pragma once
 
 #include "facet/film.h"

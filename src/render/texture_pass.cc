@@ -18,20 +18,21 @@ namespace facet {
 
 namespace {
 
-// What the builder accepts, see texture/texture.h.
+// The limits of the builder (texture/texture.h).
 constexpr int kMaxSide = 1 << (kMaxTextureLevels - 1), kMaxTexels = 1 << 27;
 
-// Of a texture with all its levels, as the picture's header has it.
+// The size of a texture with all its levels, from the header of its image.
 double ExpectedBytes(const ImageHeader& header, const PlannedTexture& planned, TexelBits texels) {
   const bool grey = header.channels == 1 || header.channels == 2, no_alpha = header.channels % 2 == 1;
   const auto read = static_cast<unsigned>(planned.channels & (no_alpha ? kRgb : kRgba));
-  const int numbers = grey ? ((read & kRgb) != 0) + ((read & kA) != 0) : std::popcount(read);
-  const bool wide =
+  const int components = grey ? ((read & kRgb) != 0) + ((read & kA) != 0) : std::popcount(read);
+  const bool is_16_bit =
       texels == TexelBits::Mixed ? planned.role == TextureRole::Color || header.bits > 8 : texels == TexelBits::Sixteen;
-  return double(TexelCount(header.width, header.height, planned.mips)) * (wide ? 2.0 : 1.0) * std::max(numbers, 1);
+  return double(TexelCount(header.width, header.height, planned.mips)) * (is_16_bit ? 2.0 : 1.0) *
+         std::max(components, 1);
 }
 
-// Refuses what cannot be decoded, or is beyond the budget.
+// Refuses textures that are too large to decode, or for the budget.
 void CheckSizes(const Scene& scene, const std::vector<bool>& needed, TexelBits texels, const FramePlan& plan,
                 const FrameTextures& textures, MemoryBudget& budget) {
   double sum = 0.0, largest = 0.0;
@@ -42,7 +43,7 @@ void CheckSizes(const Scene& scene, const std::vector<bool>& needed, TexelBits t
     const ImageSource& source = *scene.images[std::size_t(planned.image)].source;
     const ImageHeader header = source.Header().value_or(ImageHeader());
     const bool broken = header.format.empty() && double(header.bytes) < double(header.width) * header.height;
-    if (broken || header.width < 1 || header.height < 1) continue;  // decoding says more
+    if (broken || header.width < 1 || header.height < 1) continue;  // decoding it gives a better message
     const std::string size = std::to_string(header.width) + " x " + std::to_string(header.height);
     const TextureData* const kept = textures.entries[t].data.get();
     const double bytes = kept != nullptr ? double(kept->bytes.size()) : ExpectedBytes(header, planned, texels);
@@ -95,7 +96,7 @@ void DecodeTextures(const Scene& scene, const std::vector<bool>& material_visibl
   CheckSizes(scene, needed, texels, plan, textures, budget);
   // An image that is read in two roles is decoded once.
   std::vector<int> images;
-  std::vector<std::vector<std::size_t>> textures_of(scene.images.size());  // to be made, by image
+  std::vector<std::vector<std::size_t>> textures_of(scene.images.size());  // textures to build, by image
   for (std::size_t t = 0; t < needed.size(); ++t) {
     FrameTextures::Entry& entry = textures.entries[t];
     if (!needed[t] || entry.data != nullptr || !entry.problem.empty()) continue;
@@ -110,14 +111,14 @@ void DecodeTextures(const Scene& scene, const std::vector<bool>& material_visibl
     known.push_back(t);
   }
   std::vector<std::exception_ptr> failures(images.size());  // the first in the file's order is passed on
-  // The largest first: what comes last should not leave the other threads idle for long.
+  // The largest first, so that the last one does not leave the other threads idle for long.
   std::vector<std::pair<std::size_t, std::size_t>> order = {{beside.size, images.size()}};  // bytes, index in `images`
   for (std::size_t i = 0; i < images.size(); ++i) {
     const auto header = scene.images[std::size_t(images[i])].source->Header();
     order.emplace_back(header ? header->bytes : 0, i);
   }
   std::sort(order.rbegin(), order.rend());
-  std::atomic<std::size_t> next = 0;  // whoever is free takes the next; ParallelFor deals its pieces out in runs
+  std::atomic<std::size_t> next = 0;  // a free thread takes the next image, in this order
   ParallelFor(order.size(), 1, [&](std::size_t, std::size_t) {
     const std::size_t i = order[next++].second;
     if (i == images.size()) return beside.run();
@@ -154,7 +155,7 @@ void DecodeTextures(const Scene& scene, const std::vector<bool>& material_visibl
     if (failure != nullptr) std::rethrow_exception(failure);
   }
   std::vector<bool> warned(scene.images.size(), false);
-  std::set<std::string> said;  // images of the file may name one picture
+  std::set<std::string> said;  // several images may refer to the same file
   stats.images_decoded = images.size();
   for (std::size_t t = 0; t < needed.size(); ++t) {
     const FrameTextures::Entry& entry = textures.entries[t];
@@ -162,8 +163,8 @@ void DecodeTextures(const Scene& scene, const std::vector<bool>& material_visibl
       const TextureData& data = *entry.data;
       stats.texture_bytes += data.bytes.size();
       stats.textures.push_back({plan.textures[t].image, plan.textures[t].role == TextureRole::Color,
-                                data.level_width[0], data.level_height[0], data.levels, data.stored, data.wide ? 16 : 8,
-                                data.bytes.size(), data.dark.Share()});
+                                data.level_width[0], data.level_height[0], data.levels, data.components,
+                                data.is_16_bit ? 16 : 8, data.bytes.size(), data.empty_cells.Share()});
     }
     if (!needed[t] || (entry.problem.empty() && entry.damage.empty())) continue;
     const int image = plan.textures[t].image;

@@ -28,7 +28,7 @@ struct FrameTextures {
 // Other work for the same threads.
 struct WorkBeside {
   std::function<void()> run;
-  std::size_t size = 0;  // about as long as a picture's file of so many bytes takes to decode
+  std::size_t size = 0;  // its duration, as the size of an image file that takes as long to decode, in bytes
 };
 
 // Decodes what visible materials read and `textures` lacks, and runs `beside`. An image that cannot be decoded gives a

@@ -7,7 +7,7 @@ namespace facet {
 
 TileLights::TileLights(const FrameView& view, const LightingData& lighting, bool cull)
     : view_(view), all_(lighting), reaching_(lighting) {
-  constexpr int kFew = 4;  // lights that are evaluated in less time than it takes to choose among them
+  constexpr int kFew = 4;  // lights, which are evaluated in less time than culling takes
   cull_ = cull && lighting.light_count > kFew && view.perspective;
 }
 
@@ -15,11 +15,11 @@ const LightingData& TileLights::Reaching(const TileBuffers& tile, const TileReco
                                          const FragmentList& fragments) {
   if (!cull_ || fragments.Size() == 0) return all_;
   LitBox box(view_, tile);
-  std::int32_t last_number = kNoRecord;
-  for (const std::int32_t number : fragments.record) {
-    if (number == last_number) continue;
-    last_number = number;
-    if (!box.Add(records.Record(number), records.DrawableOf(number))) return all_;
+  std::int32_t last_id = kNoRecord;
+  for (const std::int32_t id : fragments.record) {
+    if (id == last_id) continue;
+    last_id = id;
+    if (!box.Add(records.Record(id), records.DrawableOf(id))) return all_;
   }
   glm::dvec3 low, high;
   box.Corners(low, high);

@@ -1,4 +1,4 @@
-// The lights of a tile: of those that end at a range, the ones that reach its fragments.
+// Light culling for one tile: lights whose range ends before its fragments are skipped.
 #pragma once
 
 #include <vector>
@@ -11,10 +11,10 @@ namespace facet {
 // Not thread-safe: one per worker.
 class TileLights {
  public:
-  // `cull`: false where all lights are wanted in any case.
+  // `cull`: false to keep all lights.
   TileLights(const FrameView& view, const LightingData& lighting, bool cull);
 
-  // All lights where there are few, or nothing to bound the fragments with. Valid until the next call.
+  // The lights that reach the fragments; all, if they are few or the fragments have no bound. Valid until the next call.
   const LightingData& Reaching(const TileBuffers& tile, const TileRecords& records, const FragmentList& fragments);
 
  private:

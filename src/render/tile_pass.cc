@@ -21,7 +21,7 @@ struct TileCounts {
   std::uint64_t shaded = 0, blended = 0, covered = 0, non_finite = 0;
 };
 
-// Everything a thread needs while it works on one tile; kept for the next.
+// Draws tiles, one after the other, and keeps its working memory. Not thread-safe: one per thread.
 class TileWorker {
  public:
   TileWorker(const TilePassInput& input, const ShadingPositions& positions)
@@ -30,7 +30,7 @@ class TileWorker {
         visibility_(input.view, shading_),
         lights_(input.view.view, input.lighting, input.cull_lights) {}
 
-  // `t`: counted from the row of tiles that is the output's top.
+  // `t`: the index of the tile in the output, whose top row of tiles is `first_row` of the grid.
   void Run(std::size_t t, int first_row, const TileOutput& output, TileCounts& counts) {
     const TileGrid& grid = in_.view.grid;
     const int column = static_cast<int>(t) % grid.columns, row = static_cast<int>(t) / grid.columns;
@@ -80,13 +80,13 @@ class TileWorker {
   void Put(const TileOutput& output, std::size_t first) const {
     const TileBuffers& tile = visibility_.Buffers();
     if (output.film == nullptr) {
-      DevelopTask task = output.develop;
+      EncodeTask task = output.encode;
       task.pixels = &pixels_[0].x;
       task.count = static_cast<std::size_t>(tile.width), task.rows = static_cast<std::size_t>(tile.height);
       task.pixel_stride = static_cast<std::size_t>(tile.tile_size);
       task.out_stride = static_cast<std::size_t>(in_.view.grid.width);
       task.out += first * task.PixelBytes();
-      return DevelopPixels(task);
+      return EncodePixels(task);
     }
     for (int y = 0; y < tile.height; ++y) {
       const glm::vec4* row = pixels_.data() + y * tile.tile_size;
@@ -114,7 +114,7 @@ class TileWorker {
   TilePixels background_, pixels_;
 };
 
-// Workers are lent to tasks, so that there are as many as threads, not as tiles.
+// Lends workers to tasks, so that there is one per thread, not one per tile.
 class WorkerPool {
  public:
   explicit WorkerPool(const TilePassInput& input) : input_(input), positions_(input.view.samples) {}

@@ -1,4 +1,4 @@
-// From tile lists to pixels: visibility, shading, blending and resolve, tile by tile.
+// From tile lists to pixels: visibility, shading, resolve and blending, tile by tile.
 #pragma once
 
 #include <functional>
@@ -7,7 +7,7 @@
 
 #include "facet/planes.h"
 #include "facet/render.h"
-#include "film/develop_pixels.h"
+#include "film/encode_pixels.h"
 #include "light/lighting.h"
 #include "render/environment_background.h"
 #include "render/tiled_view.h"
@@ -22,11 +22,11 @@ struct TilePassInput {
   const std::function<void(double)>& progress;  // may be empty
 };
 
-// Where the pixels of tiles go: to a film, or developed at once, while they are in the nearest cache, to a picture.
-// Both are as wide as the grid.
+// Where the pixels of tiles go: to a film, or to an image, for which each tile is tone-mapped and encoded while it is in
+// the first-level cache. Both have the width of the grid.
 struct TileOutput {
-  glm::vec4* film = nullptr;  // null: `develop` has all but the pixels and their number
-  DevelopTask develop;
+  glm::vec4* film = nullptr;  // null: pixels go to encode.out
+  EncodeTask encode;
   std::span<Plane> planes;  // besides colour
 };
 

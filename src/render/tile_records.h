@@ -1,4 +1,4 @@
-// The screen triangles that touch one tile. A tile knows each by its place in this list, its number.
+// The list of the screen triangles that touch one tile. The index of a triangle in it is its id within the tile.
 #pragma once
 
 #include <cstdint>
@@ -10,30 +10,28 @@
 
 namespace facet {
 
-// Keeps its memory from tile to tile.
+// Keeps its memory from tile to tile. Not thread-safe: one per worker.
 class TileRecords {
  public:
   explicit TileRecords(const FrameGeometry& geometry) : geometry_(geometry) {}
 
   void Clear();
-  // Adds the runs' triangles, and gives them with their numbers. Valid until the next call.
+  // Adds the triangles of the runs, and returns them with their ids. Valid until the next call.
   TileTriangles Append(std::span<const TileRun> runs);
 
-  // By number.
-  std::span<const TriangleRecord* const> All() const { return records_; }
-  const TriangleRecord& Record(std::int32_t number) const { return *records_[std::size_t(number)]; }
-  const FrameDrawable& DrawableOf(std::int32_t number) const { return geometry_.drawables[Record(number).drawable]; }
-  std::uint32_t MaterialOf(std::int32_t number) const {
-    return static_cast<std::uint32_t>(DrawableOf(number).material);
-  }
+  // By id.
+  std::span<const ScreenTriangle* const> All() const { return records_; }
+  const ScreenTriangle& Record(std::int32_t id) const { return *records_[std::size_t(id)]; }
+  const FrameDrawable& DrawableOf(std::int32_t id) const { return geometry_.drawables[Record(id).drawable]; }
+  std::uint32_t MaterialOf(std::int32_t id) const { return static_cast<std::uint32_t>(DrawableOf(id).material); }
 
-  // Whether all of them have the same material.
+  // Whether all triangles have the same material.
   bool HaveOneMaterial() const { return one_material_; }
 
  private:
   const FrameGeometry& geometry_;
-  std::vector<const TriangleRecord*> records_;
-  std::vector<std::int32_t> numbers_;  // 0, 1, 2, ...
+  std::vector<const ScreenTriangle*> records_;
+  std::vector<std::int32_t> ids_;  // 0, 1, 2, ...
   int last_material_ = -1;
   bool one_material_ = true;
 };

@@ -5,8 +5,8 @@
 #include <numeric>
 
 #include "facet/shader.h"
+#include "shade/attribute_setup.h"
 #include "shade/shade_fragments.h"
-#include "shade/triangle_setup.h"
 
 namespace facet {
 
@@ -23,12 +23,12 @@ ShadingPositions::ShadingPositions(int samples) {
   }
 }
 
-// What the fragments of a batch, which selected_ names, have in common.
+// What the fragments of a batch share; selected_ has their indices.
 struct TileShading::Batch {
   const TileBuffers& tile;
   const TileRecords& records;
   const FrameMaterial& material;
-  const LightingData* lighting = nullptr;  // null: their alpha alone is shaded
+  const LightingData* lighting = nullptr;  // null: compute alpha only
   std::uint64_t* non_finite = nullptr;
 };
 
@@ -45,12 +45,12 @@ void TileShading::Shade(const TileBuffers& tile, const TileRecords& records, con
     return shade_selected(records.MaterialOf(fragments.list.record[0]));
   }
   runs_.clear();
-  std::int32_t last_number = kNoRecord;
+  std::int32_t last_id = kNoRecord;
   for (std::uint32_t i = 0; i < n; ++i) {
-    const std::int32_t number = fragments.list.record[i];
-    if (number != last_number) {
-      last_number = number;
-      const std::uint32_t material = records.MaterialOf(number);
+    const std::int32_t id = fragments.list.record[i];
+    if (id != last_id) {
+      last_id = id;
+      const std::uint32_t material = records.MaterialOf(id);
       if (runs_.empty() || runs_.back().material != material) runs_.push_back({material, i, i});
     }
     runs_.back().end = i + 1;
@@ -80,10 +80,10 @@ void TileShading::SelectAll(std::size_t count) {
   std::iota(selected_.begin(), selected_.end(), 0u);
 }
 
-// In parts, as 32 bits count the floats of their setups.
+// Splits large batches, because setups are indexed with 32 bits.
 void TileShading::ShadeBatch(const Batch& batch, ShadedFragments& fragments) {
   constexpr std::size_t kMost = std::size_t{1} << 20;
-  static_assert(kMost * SetupLayout::kMostStride <= INT32_MAX);
+  static_assert(kMost * AttributeLayout::kMostStride <= INT32_MAX);
   if (selected_.size() <= kMost) return ShadePart(batch, fragments);
   const std::vector<std::uint32_t> whole = selected_;
   for (auto from = whole.begin(); from != whole.end();) {
@@ -138,7 +138,7 @@ void TileShading::ShadePart(const Batch& batch, ShadedFragments& fragments) {
   }
 }
 
-// One setup per triangle and batch; the padding has the last fragment's.
+// Sets up the attributes of each triangle of the batch once. Padding uses the setup of the last fragment.
 void TileShading::SetUpBatch(const Batch& batch, const FragmentList& list, std::size_t padded) {
   const std::size_t n = selected_.size();
   ++batch_number_;
@@ -146,29 +146,29 @@ void TileShading::SetUpBatch(const Batch& batch, const FragmentList& list, std::
   setup_of_.resize(padded);
   setup_of_record_.resize(std::max(setup_of_record_.size(), batch.records.All().size()), {0, 0});
   const std::uint64_t batch_number = batch_number_;
-  const TriangleRecord* const* records = batch.records.All().data();
+  const ScreenTriangle* const* records = batch.records.All().data();
   const std::uint32_t* selected = selected_.data();
-  const std::int32_t* numbers = list.record.data();
+  const std::int32_t* ids = list.record.data();
   SetupOfRecord* setup_of_record = setup_of_record_.data();
   std::int32_t* setup_of = setup_of_.data();
-  std::int32_t last_number = kNoRecord, last_setup = 0;
+  std::int32_t last_id = kNoRecord, last_setup = 0;
   for (std::size_t i = 0; i < n; ++i) {
-    const std::int32_t number = numbers[selected[i]];
-    if (number != last_number) {
-      last_number = number;
-      SetupOfRecord& known = setup_of_record[number];
+    const std::int32_t id = ids[selected[i]];
+    if (id != last_id) {
+      last_id = id;
+      SetupOfRecord& known = setup_of_record[id];
       if (known.batch != batch_number) {
         known = {batch_number, static_cast<std::int32_t>(set_up_.size())};
-        set_up_.push_back(records[number]);
+        set_up_.push_back(records[id]);
       }
       last_setup = known.setup;
     }
     setup_of[i] = last_setup;
   }
   for (std::size_t i = n; i < padded; ++i) setup_of[i] = last_setup;
-  const std::size_t stride = std::size_t(SetupLayout::Stride(batch.material.uv_slots));
+  const std::size_t stride = std::size_t(AttributeLayout::Stride(batch.material.uv_slots));
   setups_.resize(std::max(setups_.size(), set_up_.size() * stride));
-  SetupTask task;
+  AttributeSetupTask task;
   task.view = &view_.view;
   task.drawables = view_.geometry.drawables.data();
   task.attributes = view_.attributes.data();
@@ -178,10 +178,10 @@ void TileShading::SetUpBatch(const Batch& batch, const FragmentList& list, std::
   task.records = set_up_.data();
   task.count = set_up_.size();
   task.setups = setups_.data();
-  SetUpTriangles(task);
+  SetUpTriangleAttributes(task);
 }
 
-// Where they are shaded, in pixels from the anchor; the padding is where the last one is.
+// Computes the positions at which fragments are shaded, in pixels from the anchor. Padding repeats the last one.
 void TileShading::PlaceFragments(const TileBuffers& tile, const FragmentList& list, std::size_t padded) {
   const std::size_t n = selected_.size();
   x_.resize(padded), y_.resize(padded);

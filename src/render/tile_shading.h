@@ -1,4 +1,4 @@
-// Shading the fragments of a tile: by material, packed into batches whatever triangles they come from.
+// Shades the fragments of a tile in batches of one material, whatever triangles they come from.
 #pragma once
 
 #include <cstdint>
@@ -10,13 +10,13 @@
 
 namespace facet {
 
-// Where the fragments of a pixel are shaded, by which of its samples they cover: at the pixel's centre when they cover
-// all, else at the centroid of those that they cover, which lies within the triangle.
+// The position within a pixel at which a fragment is shaded: the pixel's centre if it covers all samples, otherwise the
+// centroid of those that it covers, which lies within the triangle.
 class ShadingPositions {
  public:
   explicit ShadingPositions(int samples);
 
-  // Pixels from the pixel's top left corner.
+  // In pixels from the top left corner; `samples`: bits of those that are covered.
   float X(std::uint8_t samples) const { return x_[samples]; }
   float Y(std::uint8_t samples) const { return y_[samples]; }
 
@@ -29,10 +29,10 @@ class TileShading {
  public:
   TileShading(const TiledView& view, const ShadingPositions& positions) : view_(view), positions_(positions) {}
 
-  // Shades all fragments of the list. `non_finite`: fragments that were replaced by black are added to it.
+  // Shades all fragments of the list, and adds to `non_finite` how many of them were replaced by black.
   void Shade(const TileBuffers& tile, const TileRecords& records, const LightingData& lighting,
              ShadedFragments& fragments, std::uint64_t& non_finite);
-  // Only their alpha; all have this material, which is read for nothing else.
+  // Computes the alpha of the fragments, which all have this material.
   void ShadeAlpha(const TileBuffers& tile, const TileRecords& records, const FrameMaterial& material,
                   ShadedFragments& fragments);
 
@@ -44,24 +44,24 @@ class TileShading {
   void PlaceFragments(const TileBuffers& tile, const FragmentList& list, std::size_t padded);
   void SelectAll(std::size_t count);
 
-  // Fragments [begin, end) of a list, which have one material: neighbours mostly do.
+  // Consecutive fragments of a list that have the same material: [begin, end).
   struct MaterialRun {
     std::uint32_t material, begin, end;
   };
   struct SetupOfRecord {
-    std::uint64_t batch;  // in which it was made
+    std::uint64_t batch;  // for which it was computed
     std::int32_t setup;
   };
 
   const TiledView& view_;
   const ShadingPositions& positions_;
   std::vector<MaterialRun> runs_;
-  std::vector<std::uint32_t> selected_;  // the batch's fragments, as indices into their list
+  std::vector<std::uint32_t> selected_;  // indices of the batch's fragments in their list
   std::vector<SetupOfRecord> setup_of_record_;
   std::uint64_t batch_number_ = 0;
-  std::vector<const TriangleRecord*> set_up_;  // the records that have a setup in this batch, in its order
+  std::vector<const ScreenTriangle*> set_up_;  // the batch's triangles, in the order of their setups
   std::vector<float> setups_;
-  std::vector<std::int32_t> setup_of_;  // by fragment of the batch, as all below
+  std::vector<std::int32_t> setup_of_;  // by fragment of the batch, like all below
   std::vector<float> x_, y_, red_, green_, blue_, alpha_;
 };
 

@@ -34,10 +34,10 @@ void TileVisibility::Draw() {
   if (!lists.masked[list_].empty()) DrawMasked(lists.masked[list_]);
 }
 
-// In batches: their fragments are collected against the depth of the opaque triangles, their alpha alone is shaded, and
-// those that pass are written in order, each against the depth of that moment. (Collected against that depth, which
-// samples a fragment covers, hence where its alpha is read, would depend on where batches end, and so on the tile's
-// size.)
+// Works in batches: lists the fragments that are nearer than the opaque triangles, computes their alpha, and stores those
+// that pass in order, each with its own depth test. (If fragments were listed against the depth of that moment, the
+// samples that a fragment covers, and with them the position at which its alpha is read, would depend on where batches
+// end, and so on the size of tiles.)
 void TileVisibility::DrawMasked(std::span<const TileRun> runs) {
   constexpr std::size_t kBatch = 64;  // triangles
   behind_masked_ = tile_;
@@ -59,13 +59,13 @@ void TileVisibility::DrawMasked(std::span<const TileRun> runs) {
   }
 }
 
-// In batches, so that the layers of a tile, of which there may be any number, are charged as they come.
+// Works in batches, so that fragments, of which there may be any number, are charged before memory runs out.
 void TileVisibility::CollectBlended(FragmentList& out) {
   constexpr std::size_t kBatch = 256;  // triangles
   const TileTriangles all = records_.Append(view_.geometry.lists.blended[list_]);
   for (std::size_t first = 0; first < all.count; first += kBatch) {
     charge_.AdmitFragments(out.Size());
-    RasterCollect({all.records + first, all.numbers + first, std::min(kBatch, all.count - first)}, tile_, out,
+    RasterCollect({all.records + first, all.ids + first, std::min(kBatch, all.count - first)}, tile_, out,
                   CollectDepth::NearerOrEqual);
   }
   charge_.AdmitFragments(out.Size());

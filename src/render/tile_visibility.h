@@ -1,4 +1,4 @@
-// Which triangle is seen at each sample of a tile, of the camera's view or of a light's.
+// Visibility of one tile, in the camera's view or a light's: which triangle is seen at each sample.
 #pragma once
 
 #include <cstddef>
@@ -9,11 +9,12 @@
 #include "render/tile_records.h"
 #include "render/tile_shading.h"
 #include "render/tiled_view.h"
-#include "shade/triangle_setup.h"
+#include "shade/attribute_setup.h"
 
 namespace facet {
 
-// Charges what may be any number in a tile to the memory budget. The few that nearly every tile has are not counted.
+// Charges the triangles and fragments of a tile, which may be any number, to the memory budget. The few that nearly every
+// tile has are not counted.
 class TileCharge {
  public:
   void AdmitRecords(std::size_t count) { Admit(count, kPerRecord, records_); }
@@ -22,11 +23,11 @@ class TileCharge {
  private:
   void Admit(std::size_t count, std::size_t size_each, std::size_t& admitted);
 
-  // A record's pointer, number and setup, and the index of that; a fragment's own 7 bytes, what its shading needs, and
-  // its index in the order of layers. The vectors grow by half of these on average.
-  static constexpr std::size_t kPerRecord = 40 + SetupLayout::kMostStride * sizeof(float), kPerFragment = 120;
+  // Bytes. A record: its pointer, id, setup, and the index of the setup. A fragment: its own 7 bytes, the arrays of its
+  // shading, and its index in the order of layers. On average vectors have half of that in reserve.
+  static constexpr std::size_t kPerRecord = 40 + AttributeLayout::kMostStride * sizeof(float), kPerFragment = 120;
 
-  std::size_t records_ = std::size_t{1} << 14, fragments_ = std::size_t{1} << 16;  // that were admitted
+  std::size_t records_ = std::size_t{1} << 14, fragments_ = std::size_t{1} << 16;  // charged so far
   std::vector<MemoryLease> leases_;
 };
 
@@ -37,14 +38,14 @@ class TileVisibility {
   TileVisibility(const TiledView& view, TileShading& shading)
       : view_(view), shading_(shading), records_(view.geometry) {}
 
-  // Goes to tile (column, row) of the grid, whose lists are number `list` of the geometry's. False: no triangle touches
-  // it, and its buffers are not cleared.
+  // Begins tile (column, row) of the grid; `list` is the index of its lists in the geometry's. False: no triangle touches
+  // the tile, and its buffers are not cleared.
   bool Begin(int column, int row, std::size_t list);
 
   // Draws the tile's opaque and alpha-tested triangles.
   void Draw();
 
-  // The fragments of blended triangles that are not behind what was drawn.
+  // Lists the fragments of blended triangles that are not behind the drawn ones.
   void CollectBlended(FragmentList& out);
   bool HasBlended() const { return !view_.geometry.lists.blended[list_].empty(); }
 

@@ -1,4 +1,4 @@
-// Directions through a picture's pixels, as a column's part and a row's.
+// Directions from the eye through the pixels of an image, as the sum of a column's part and a row's part.
 #pragma once
 
 #include <vector>

@@ -9,7 +9,7 @@
 namespace facet {
 namespace {
 
-// Every plane and the function that writes it: the compiler asks for the one that is missing.
+// Calls the function that writes the plane. The compiler warns of a plane without one.
 void Write(PlaneKind kind, const PlaneTile& t) {
   switch (kind) {
     case PlaneKind::Depth: return WriteDepth(t);
@@ -17,8 +17,8 @@ void Write(PlaneKind kind, const PlaneTile& t) {
   }
 }
 
-// Of a row of a block's pixels, from (x, y) on: larger depths are nearer, and of equal ones the first sample's stays.
-// What nobody covers is infinitely far away. Selections without a branch, which compilers make lanes of.
+// Finds the nearest sample of each pixel in a row of a block, from (x, y) on: larger depths are nearer, and of equal ones
+// the first sample stays. Uncovered samples are infinitely far away. Without branches, so that compilers vectorize it.
 void FindNearest(const TileBuffers& tile, int x, int y, std::int32_t* nearest) {
   float depth[kBlockSize];
   for (int i = 0; i < kBlockSize; ++i) nearest[i] = kNoSample, depth[i] = -std::numeric_limits<float>::infinity();

@@ -1,4 +1,4 @@
-// A tile's samples into the pixels of a film's planes besides colour. resolve/planes/ has a file for each plane.
+// Resolves the samples of a tile to the pixels of the planes besides colour. resolve/planes/ has a file for each plane.
 #pragma once
 
 #include <cstddef>
@@ -12,11 +12,11 @@
 
 namespace facet {
 
-// Who is seen in a tile. `records`: by their numbers in tile.record; `drawables`: by TriangleRecord::drawable.
+// What is visible in a tile. `records`: by their ids in tile.record; `drawables`: by ScreenTriangle::drawable.
 struct VisibleTile {
   const TileBuffers& tile;
-  bool nothing = false;  // the tile's depths and records are not set, and nobody is seen
-  const TriangleRecord* const* records = nullptr;
+  bool nothing = false;  // no triangle touches the tile, and its buffers are not cleared
+  const ScreenTriangle* const* records = nullptr;
   const FrameView& view;
   const FrameDrawable* drawables = nullptr;
 };
@@ -24,8 +24,8 @@ struct VisibleTile {
 // Keeps its working memory from tile to tile. Not thread-safe: one per worker.
 class PlaneResolver {
  public:
-  // Writes the tile's pixels into each plane. The planes are `width` pixels wide and large enough; the tile's top left
-  // pixel is number `first` of them.
+  // Writes the tile's pixels into each plane. The planes are `width` pixels wide; the tile's top left pixel has the
+  // index `first` in them.
   void Run(const VisibleTile& seen, std::size_t first, std::size_t width, std::span<Plane> planes);
 
  private:

@@ -1,4 +1,4 @@
-// Samples into pixels.
+// The resolve stage: samples to pixels.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -8,11 +8,11 @@
 
 namespace facet {
 
-// Pixels of a tile, tile_size a row: linear light multiplied by coverage, and coverage.
+// The pixels of a tile, tile_size a row: linear light multiplied by coverage, and coverage.
 using TilePixels = std::vector<glm::vec4>;
 
-// The mean over each pixel's samples of the opaque fragments' colours; samples that nothing covers count as nothing.
-// Fragments are those of VisibleFragments.
+// The mean colour of each pixel's samples; uncovered samples count as zero. `opaque`: the fragments of VisibleFragments,
+// shaded.
 void ResolveOpaque(const TileBuffers& tile, const ShadedFragments& opaque, TilePixels& pixels);
 
 }  // namespace facet

@@ -62,8 +62,9 @@ std::uint64_t HeldBytes(const Scene& scene) {
 }
 
 std::uint64_t HeldBytes(const PosedScene& posed) {
-  std::uint64_t bytes = Array(posed.drawables) + Array(posed.lights) + Array(posed.cameras) + Array(posed.incomplete);
-  for (const IncompleteGeometry& geometry : posed.incomplete) bytes += Array(geometry.drawables);
+  std::uint64_t bytes =
+      Array(posed.drawables) + Array(posed.lights) + Array(posed.cameras) + Array(posed.needs_tangents);
+  for (const GeometryWithoutTangents& geometry : posed.needs_tangents) bytes += Array(geometry.drawables);
   for (const Primitive& copy : posed.owned) bytes += sizeof(Primitive) + HeldBytes(copy);
   return bytes;
 }

@@ -307,7 +307,7 @@ void ForEachPlaced(const Scene& scene, const PoseSettings& settings, const Visit
 
 }  // namespace
 
-PosedScene PoseIncomplete(const Scene& scene, const PoseSettings& settings) {
+PosedScene PoseWithoutTangents(const Scene& scene, const PoseSettings& settings) {
   const FloatEnvironment environment;
   Plan plan = MakePlan(scene, settings);
   PosedScene posed;
@@ -351,7 +351,7 @@ PosedScene PoseIncomplete(const Scene& scene, const PoseSettings& settings) {
       AddPlaced(positions_of(i), local[i], plan.drawables[drawable].world_from_mesh, posed.bounds);
     }
     if (plan.shapes[i].needs_tangents && !plan.shapes[i].IsCopy()) {
-      posed.incomplete.push_back({drawables_of_shape[i], plan.shapes[i].normal_map});
+      posed.needs_tangents.push_back({drawables_of_shape[i], plan.shapes[i].normal_map});
     }
   }
   posed.drawables = std::move(plan.drawables);
@@ -360,7 +360,7 @@ PosedScene PoseIncomplete(const Scene& scene, const PoseSettings& settings) {
   return posed;
 }
 
-Primitive Completed(const Primitive& geometry, const TextureRef& normal_map) {
+Primitive WithTangents(const Primitive& geometry, const TextureRef& normal_map) {
   Primitive copy = CopyWithoutDeformers(geometry);
   MakeTangents(normal_map, copy);
   return copy;
@@ -368,15 +368,17 @@ Primitive Completed(const Primitive& geometry, const TextureRef& normal_map) {
 
 PosedScene Pose(const Scene& scene, const PoseSettings& settings) {
   const FloatEnvironment environment;
-  PosedScene posed = PoseIncomplete(scene, settings);
-  const std::vector<IncompleteGeometry> incomplete = std::exchange(posed.incomplete, {});
+  PosedScene posed = PoseWithoutTangents(scene, settings);
+  const std::vector<GeometryWithoutTangents> needs_tangents = std::exchange(posed.needs_tangents, {});
   const std::size_t first = posed.owned.size();
-  posed.owned.resize(first + incomplete.size());
-  ParallelFor(incomplete.size(), 1, [&](std::size_t begin, std::size_t end) {
+  posed.owned.resize(first + needs_tangents.size());
+  ParallelFor(needs_tangents.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      Primitive& completed = posed.owned[first + i];
-      completed = Completed(*posed.drawables[incomplete[i].drawables[0]].geometry, incomplete[i].normal_map);
-      for (const std::size_t drawable : incomplete[i].drawables) posed.drawables[drawable].geometry = &completed;
+      Primitive& with_tangents = posed.owned[first + i];
+      with_tangents =
+          WithTangents(*posed.drawables[needs_tangents[i].drawables[0]].geometry, needs_tangents[i].normal_map);
+      for (const std::size_t drawable : needs_tangents[i].drawables)
+        posed.drawables[drawable].geometry = &with_tangents;
     }
   });
   return posed;

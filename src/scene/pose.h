@@ -43,7 +43,7 @@ struct PosedLight {
 };
 
 // Geometry of the scene without tangents that is drawn with a normal map, so it needs them before it is shaded.
-struct IncompleteGeometry {
+struct GeometryWithoutTangents {
   std::vector<std::size_t> drawables;  // indices of those that draw it, all with one material
   TextureRef normal_map;
 };
@@ -64,7 +64,7 @@ struct PosedScene {
   std::vector<PosedCamera> cameras;  // including those of hidden nodes
   Bounds bounds;  // of all vertices of all drawables
   std::deque<Primitive> owned;  // copies that are deformed or got normals or tangents
-  std::vector<IncompleteGeometry> incomplete;  // empty after Pose()
+  std::vector<GeometryWithoutTangents> needs_tangents;  // empty after Pose()
   bool skinned = false, morphed = false;  // whether any geometry is
 };
 
@@ -75,12 +75,12 @@ struct PosedScene {
 PosedScene Pose(const Scene& scene, const PoseSettings& settings);
 
 // As Pose(), but no tangents are generated for geometry that has normals and is not deformed: it is drawn without a
-// copy, and PosedScene::incomplete lists it. Only shading needs the tangents, and only of what is visible.
-PosedScene PoseIncomplete(const Scene& scene, const PoseSettings& settings);
+// copy, and PosedScene::needs_tangents lists it. Only shading needs the tangents, and only of what is visible.
+PosedScene PoseWithoutTangents(const Scene& scene, const PoseSettings& settings);
 
 // Returns the same triangles in the same order with tangents for `normal_map`, as Pose() would draw them. The geometry
 // must have normals. Thread-safe.
-Primitive Completed(const Primitive& geometry, const TextureRef& normal_map);
+Primitive WithTangents(const Primitive& geometry, const TextureRef& normal_map);
 
 // Computes only the bounds of a pose, without storing deformed geometry.
 Bounds PosedBounds(const Scene& scene, const PoseSettings& settings);

@@ -7,7 +7,7 @@ namespace facet {
 
 // Gives `primitive`, of triangles in any form and with normals, tangents for `normal_map`: xyz unit and along
 // increasing u, w the sign s in bitangent = s * cross(normal, tangent), which points along decreasing v (up in the
-// picture), where u and v are the coordinates the map is read at, those of its UV set after its KHR_texture_transform.
+// image), where u and v are the coordinates the map is read at, those of its UV set after its KHR_texture_transform.
 // Triangle strips and fans become lists. A vertex whose triangles need different tangents is split: the first stays,
 // copies are appended, indices follow. Without that UV set the tangents are any that are perpendicular to the normal,
 // with w = 1.

@@ -38,7 +38,7 @@ std::string Text(double number) {
   return text.str();
 }
 
-// --- Numbers ---------------------------------------------------------------------------------------------------------
+// --- Numbers --------------------------------------------------------------------------------------------------------
 
 // Passes without branches: there may be millions.
 bool AllFinite(const float* numbers, std::size_t count) {
@@ -83,7 +83,7 @@ void CheckEnum(Enum value, Enum last, const Where& where, const char* what) {
   if (value > last) Fail(where, std::string(what) + " " + std::to_string(int(value)) + " is unknown");
 }
 
-// --- Indices and sizes -----------------------------------------------------------------------------------------------
+// --- Indices and sizes ----------------------------------------------------------------------------------------------
 
 // `index` names one of `count` things, or none where that is allowed.
 void CheckIndex(int index, std::size_t count, bool none_allowed, const Where& where, const char* what) {
@@ -98,7 +98,7 @@ void CheckSize(std::size_t size, std::size_t expected, bool empty_allowed, const
   Fail(where, std::string(what) + " has " + std::to_string(size) + " entries instead of " + std::to_string(expected));
 }
 
-// --- The parts of a scene --------------------------------------------------------------------------------------------
+// --- The parts of a scene -------------------------------------------------------------------------------------------
 
 void CheckTexture(const Texture& texture, const Scene& scene, const Where& where) {
   CheckIndex(texture.image, scene.images.size(), true, where, "image");

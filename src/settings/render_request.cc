@@ -285,10 +285,10 @@ RenderInputs LoadInputs(const std::filesystem::path& scene, const RenderRequest&
 std::optional<Digest> HashEnvironment(const EnvironmentSettings& environment) {
   switch (environment.kind) {
     case EnvironmentSettings::Kind::None: return std::nullopt;
-    case EnvironmentSettings::Kind::Studio: return HashImage(StudioPicture(kStudioWidth, kStudioHeight));
+    case EnvironmentSettings::Kind::Studio: return HashImage(StudioImage(kStudioWidth, kStudioHeight));
     case EnvironmentSettings::Kind::Image: break;
   }
-  return HashImage(*PictureOf(environment));
+  return HashImage(*ImageOf(environment));
 }
 
 }  // namespace facet

@@ -10,8 +10,8 @@
 
 #include "facet/shader/lookup-inl.h"
 #include "facet/shader/surface-inl.h"
+#include "shade/attribute_setup.h"
 #include "shade/shade_task.h"
-#include "shade/triangle_setup.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace facet {
@@ -27,18 +27,18 @@ struct Barycentric {
 
 // The index of the setup that all fragments of a packet share, when they belong to one triangle: each of its components
 // is then loaded once and broadcast.
-struct OneSetup {
+struct UniformSetup {
   std::int32_t base;
 };
 template <class T>
-HWY_INLINE Vec4<T> FetchVec4(const float* p, OneSetup setup) {
+HWY_INLINE Vec4<T> FetchVec4(const float* p, UniformSetup setup) {
   return {T(p[setup.base]), T(p[setup.base + 1]), T(p[setup.base + 2]), T(p[setup.base + 3])};
 }
 
-// `base`: for each lane the index of its setup times the stride, or OneSetup.
+// `base`: for each lane the index of its setup times the stride, or UniformSetup.
 template <class T, class Base>
 HWY_INLINE Barycentric<T> InterpolationWeights(const float* setups, Base base, T x, T y) {
-  const float* planes = setups + SetupLayout::kPlanes;
+  const float* planes = setups + AttributeLayout::kPlanes;
   T a[3], b[3], e[3];
   for (int i = 0; i < 3; ++i) {
     const Vec4<T> plane = FetchVec4<T>(planes + 3 * i, base);  // the fourth component is not used
@@ -82,19 +82,19 @@ HWY_INLINE void InterpolateFrom(const ShadeTask& task, Base base, T x, T y, Surf
   s.position = s.view = s.normal = s.interpolated_normal = Vec3<T>{};
   s.tangent = Vec4<T>{};
   s.color = {T(1.0f), T(1.0f), T(1.0f), T(1.0f)};
-  if (material.vertex_colors) s.color = InterpolateVec4(setups, base, w, SetupLayout::kColors, 4);
+  if (material.vertex_colors) s.color = InterpolateVec4(setups, base, w, AttributeLayout::kColors, 4);
   if (material.Has(kLit)) {
     const Vec3<T> up{T(0.0f), T(0.0f), T(1.0f)};
-    s.position = Xyz(InterpolateVec4(setups, base, w, SetupLayout::kPositions, 3));
+    s.position = Xyz(InterpolateVec4(setups, base, w, AttributeLayout::kPositions, 3));
     s.view = task.orthographic
                  ? Vec3<T>{T(task.view_direction[0]), T(task.view_direction[1]), T(task.view_direction[2])}
                  : NormalizeOr(-s.position, up);
-    s.interpolated_normal = Xyz(InterpolateVec4(setups, base, w, SetupLayout::kNormals, 3));
+    s.interpolated_normal = Xyz(InterpolateVec4(setups, base, w, AttributeLayout::kNormals, 3));
     s.normal = NormalizeOr(s.interpolated_normal, s.view);
   }
-  if (material.Has(kTangentSpaceBits)) s.tangent = InterpolateVec4(setups, base, w, SetupLayout::kTangents, 4);
+  if (material.Has(kTangentSpaceBits)) s.tangent = InterpolateVec4(setups, base, w, AttributeLayout::kTangents, 4);
   for (int slot = 0; slot < material.uv_slots; ++slot) {
-    const float* p = setups + SetupLayout::kTexCoords + 6 * slot;
+    const float* p = setups + AttributeLayout::kTexCoords + 6 * slot;
     const Vec4<T> uv01 = FetchVec4<T>(p, base), uv12 = FetchVec4<T>(p + 2, base);
     const auto weigh = [&](const T (&weights)[3]) HWY_ATTR {
       return Vec2<T>{Weigh(weights, uv01.x, uv01.z, uv12.z), Weigh(weights, uv01.y, uv01.w, uv12.w)};
@@ -111,9 +111,9 @@ template <class T>
 HWY_INLINE void InterpolateSurface(const ShadeTask& task, std::size_t i, Surface<T>& s) {
   const T x = Load<T>(task.x + i), y = Load<T>(task.y + i);
   const std::int32_t first = task.setup[i];
-  const std::int32_t stride = SetupLayout::Stride(task.material->uv_slots);
+  const std::int32_t stride = AttributeLayout::Stride(task.material->uv_slots);
   const IntOf<T> setup = LoadIntOf<T>(task.setup + i);
-  if (All(setup == IntOf<T>(first))) return InterpolateFrom(task, OneSetup{first * stride}, x, y, s);
+  if (All(setup == IntOf<T>(first))) return InterpolateFrom(task, UniformSetup{first * stride}, x, y, s);
   InterpolateFrom(task, setup * IntOf<T>(stride), x, y, s);
 }
 template <class T>

@@ -27,13 +27,13 @@ class TextureReader {
   // Computes the taps of the material's first texture, and prefetches them in all textures that share them. Memory is
   // slow, so call this for a new surface some time before it is shaded.
   HWY_INLINE void ReadAhead(const FrameMaterial& m) {
-    made_for_ = dark_ = nullptr;
+    made_for_ = empty_ = nullptr;
     summed_count_ = 0;
     const TexturesOf all(m);
     for (int k = 0; k < all.count; ++k) {
       if (k == 0) Find(*all.textures[0]);
       const BoundTexture& texture = *all.textures[k];
-      if (HaveSameTaps(*made_for_, texture) && !IsDark(texture, taps_)) PrefetchTexels(*texture.data, taps_);
+      if (HaveSameTaps(*made_for_, texture) && !IsEmpty(texture, taps_)) PrefetchTexels(*texture.data, taps_);
     }
   }
 
@@ -41,7 +41,7 @@ class TextureReader {
   // not read.
   HWY_INLINE void ReadAll(const FrameMaterial& m) {
     TexturesOf left(m);
-    dark_ = nullptr;
+    empty_ = nullptr;
     for (summed_count_ = 0; left.count > 0;) {
       Find(*left.textures[0]);
       const TextureData* together[kSlotCount];
@@ -51,7 +51,7 @@ class TextureReader {
         const BoundTexture* texture = left.textures[k];
         if (!HaveSameTaps(*made_for_, *texture)) {
           left.textures[others++] = texture;
-        } else if (texture->data->dark.width > 0) {
+        } else if (texture->data->empty_cells.width > 0) {
           emission = texture;
         } else {
           summed_[summed_count_ + count] = texture;
@@ -60,8 +60,8 @@ class TextureReader {
       }
       if (count > 0) SumTexels(count, together, taps_, sums_ + summed_count_);
       summed_count_ += count;
-      if (emission != nullptr && IsDark(*emission, taps_)) {
-        dark_ = emission;
+      if (emission != nullptr && IsEmpty(*emission, taps_)) {
+        empty_ = emission;
       } else if (emission != nullptr) {
         SumTexels<1, T>(&emission->data, taps_, sums_ + summed_count_);
         summed_[summed_count_++] = emission;
@@ -72,7 +72,7 @@ class TextureReader {
 
   template <int kChannels>
   HWY_INLINE Vec4<T> Read(const BoundTexture& texture) {
-    if (&texture == dark_) return {T(0.0f), T(0.0f), T(0.0f), T(0.0f)};
+    if (&texture == empty_) return {T(0.0f), T(0.0f), T(0.0f), T(0.0f)};
     for (int k = 0; k < summed_count_; ++k) {
       if (summed_[k] == &texture) return ChannelsOf<kChannels>(*texture.data, sums_[k]);
     }
@@ -106,7 +106,7 @@ class TextureReader {
   int summed_count_ = 0;
   const BoundTexture* summed_[kSlotCount] = {};  // the textures that ReadAll() has summed
   TexelSums<T> sums_[kSlotCount];
-  const BoundTexture* dark_ = nullptr;  // the texture that ReadAll() found to be empty
+  const BoundTexture* empty_ = nullptr;  // the texture that ReadAll() found to be empty
 };
 
 // The material as shading models see it. T is Float (lanes), float or double.

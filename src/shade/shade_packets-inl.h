@@ -24,16 +24,16 @@ HWY_INLINE void ShadePackets(const ShadeTask& task, const Shader& shader, Surfac
   const LightingView<Float> lighting(*task.lighting);
   const std::size_t lanes = LaneCount();
   TextureReader<Float> readers[2] = {TextureReader<Float>(surfaces[0]), TextureReader<Float>(surfaces[1])};
-  const auto prepare = [&](std::size_t first, int place) HWY_ATTR {
-    InterpolateSurface(task, first, surfaces[place]);
-    readers[place].ReadAhead(*task.material);
+  const auto prepare = [&](std::size_t first, int buffer) HWY_ATTR {
+    InterpolateSurface(task, first, surfaces[buffer]);
+    readers[buffer].ReadAhead(*task.material);
   };
   if (task.count > 0) prepare(0, 0);
-  int place = 0;
-  for (std::size_t i = 0; i < task.count; i += lanes, place = 1 - place) {
-    if (i + lanes < task.count) prepare(i + lanes, 1 - place);
-    const MaterialView<Float> material(*task.material, &readers[place]);
-    const Shaded<Float> shaded = shader(surfaces[place], material, lighting);
+  int buffer = 0;
+  for (std::size_t i = 0; i < task.count; i += lanes, buffer = 1 - buffer) {
+    if (i + lanes < task.count) prepare(i + lanes, 1 - buffer);
+    const MaterialView<Float> material(*task.material, &readers[buffer]);
+    const Shaded<Float> shaded = shader(surfaces[buffer], material, lighting);
     const Vec3<Float> c = shaded.color;
     const Mask finite = IsFinite(c.x) & IsFinite(c.y) & IsFinite(c.z) & IsFinite(shaded.alpha);
     const Float zero(0.0f);
@@ -56,8 +56,8 @@ template <class Shader>
 HWY_INLINE void ShadePackets(const ShadeTask& task, const Shader& shader) {
   Surface<Float> surfaces[2];
   const int used = task.count > LaneCount() ? 2 : 1;
-  for (int place = 0; place < used; ++place) {
-    Surface<Float>& s = surfaces[place];
+  for (int buffer = 0; buffer < used; ++buffer) {
+    Surface<Float>& s = surfaces[buffer];
     for (int k = task.material->uv_slots; k < kSurfaceUvSlots; ++k) {
       s.uv[k] = s.duv_dx[k] = s.duv_dy[k] = Vec2<Float>{};
     }

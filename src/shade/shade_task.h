@@ -17,7 +17,7 @@ struct ShadeTask {
   const float* x = nullptr;
   const float* y = nullptr;
   std::size_t count = 0;
-  const float* setups = nullptr;  // SetupLayout::Stride() floats each
+  const float* setups = nullptr;  // AttributeLayout::Stride() floats each
   const FrameMaterial* material = nullptr;
   const LightingData* lighting = nullptr;
   const void* parameters = nullptr;  // of a user's shader

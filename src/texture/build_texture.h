@@ -23,22 +23,22 @@ class TextureBuilder {
   TextureData Finish();
 
  private:
-  void PlaceChannels(int channels);
-  bool IsAlpha(int number) const { return channels_ % 2 == 0 && channel_of_[number] == channels_ - 1; }
+  void ChooseComponents(int channels);
+  bool IsAlpha(int component) const { return channels_ % 2 == 0 && channel_of_[component] == channels_ - 1; }
   void Expand(const std::uint8_t* row);
-  template <class Number>
-  void Expand(const Number* row);
-  float* Plane(int level, int y, int number);
+  template <class Component>
+  void Expand(const Component* row);
+  float* Plane(int level, int y, int component);
   void FinishRow(int level, int y);
-  void PlaceCells();
-  void FindLitCells(int y);
+  void ChooseEmptyCells();
+  void FindOccupiedCells(int y);
 
   int width_, channels_;     // of the image
   int channel_of_[4] = {};   // the image's channel that each component of a texel is made from
   ChannelType type_;
   TextureData texture_;
   int next_row_ = 0;
-  bool leave_black_ = false;  // black texels are not written: fresh memory is zero already, and stays unallocated
+  bool skip_black_ = false;   // black texels are not written: fresh memory is zero already, and stays unallocated
   int cell_level_ = -1;       // the level whose texels are the cells of EmptyCells
   bool gamma_ = false;                    // colour components are encoded with the sRGB curve
   std::vector<float> linear_, color_;     // the linear value of each code, without and with sRGB; empty for floats

@@ -106,11 +106,11 @@ struct BilinearTap {
 
 // Where the mip level of each lane lies in TextureData: in texels.
 template <class T>
-struct LevelPlace {
+struct LevelLayout {
   IntOf<T> width, height, offset, pitch;
 };
 template <class T>
-HWY_INLINE LevelPlace<T> PlaceOfLevel(const TextureData& data, IntOf<T> level) {
+HWY_INLINE LevelLayout<T> LayoutOfLevel(const TextureData& data, IntOf<T> level) {
   static_assert(kMaxTextureLevels == 16);
   return {FetchOf16(data.level_width, level), FetchOf16(data.level_height, level), FetchOf16(data.level_offset, level),
           FetchOf16(data.level_pitch, level)};
@@ -118,7 +118,7 @@ HWY_INLINE LevelPlace<T> PlaceOfLevel(const TextureData& data, IntOf<T> level) {
 
 // `share`: the tap's part of kWeightSum, a result of RoundWeight(). The weights of its four texels sum to it exactly.
 template <class T>
-HWY_INLINE void MakeBilinearTap(const Sampler& sampler, Vec2<T> uv, const LevelPlace<T>& level, MaskOf<T> linear,
+HWY_INLINE void MakeBilinearTap(const Sampler& sampler, Vec2<T> uv, const LevelLayout<T>& level, MaskOf<T> linear,
                                 T share, BilinearTap<T>& tap) {
   const AxisTaps<T> u = MakeTaps(sampler.wrap_u, uv.x, level.width, linear);
   const AxisTaps<T> v = MakeTaps(sampler.wrap_v, uv.y, level.height, linear);
@@ -228,7 +228,7 @@ HWY_NOINLINE void MakeTextureTaps(const BoundTexture& texture, const Vec2<T>& uv
     out.count = 1;
     out.of_lane = IntOf<T>(1);
     out.two_levels = false;
-    MakeBilinearTap(sampler, uv, PlaceOfLevel<T>(data, IntOf<T>(0)), linear, all, out.taps[0]);
+    MakeBilinearTap(sampler, uv, LayoutOfLevel<T>(data, IntOf<T>(0)), linear, all, out.taps[0]);
   };
   if (sampler.magnification == sampler.minification && data.levels == 1) {
     return read_level_0(sampler.magnification == Filter::Linear ? yes : no);
@@ -247,8 +247,8 @@ HWY_NOINLINE void MakeTextureTaps(const BoundTexture& texture, const Vec2<T>& uv
   const T base = Floor(nearest_level ? lod + T(0.5f) : lod);
   const T blend = nearest_level ? T(0.0f) : lod - base;  // from the finer level to the coarser
   out.two_levels = Any(blend > T(0.0f));
-  const LevelPlace<T> fine = PlaceOfLevel<T>(data, TruncateToInt(base));
-  const LevelPlace<T> coarse = PlaceOfLevel<T>(data, TruncateToInt(Min(base + T(1.0f), max_level)));
+  const LevelLayout<T> fine = LayoutOfLevel<T>(data, TruncateToInt(base));
+  const LevelLayout<T> coarse = LayoutOfLevel<T>(data, TruncateToInt(Min(base + T(1.0f), max_level)));
   const T of_coarse = RoundWeight(all * blend), of_fine = all - of_coarse;
   const T inverse_count = T(1.0f) / footprint.taps;
   // The share of the first i taps. A tap's share is the difference of two of these: the rounded shares sum exactly.
@@ -275,16 +275,16 @@ HWY_NOINLINE void MakeTextureTaps(const BoundTexture& texture, const Vec2<T>& uv
 
 // Whether all texels that would be read at `taps` are black, in all lanes.
 template <class T>
-HWY_INLINE bool IsDark(const BoundTexture& texture, const TextureTaps<T>& taps) {
-  const DarkCells& dark = texture.data->dark;
-  if (dark.width == 0) return false;
+HWY_INLINE bool IsEmpty(const BoundTexture& texture, const TextureTaps<T>& taps) {
+  const EmptyCells& empty_cells = texture.data->empty_cells;
+  if (empty_cells.width == 0) return false;
   const auto cell = [](Wrap wrap, T position, int cells) HWY_ATTR {
     return Min(TruncateToInt(Wrapped(wrap, position) * T(static_cast<float>(cells))), IntOf<T>(cells - 1));
   };
-  const IntOf<T> x = cell(texture.sampler.wrap_u, taps.uv.x, dark.width),
-                 y = cell(texture.sampler.wrap_v, taps.uv.y, dark.height);
-  const MaskOf<T> in_dark = FetchInt(dark.lit.data(), y * IntOf<T>(dark.width) + x) == IntOf<T>(0);
-  return All(in_dark & MaskOf<T>(taps.reach <= T(dark.reach)));
+  const IntOf<T> x = cell(texture.sampler.wrap_u, taps.uv.x, empty_cells.width),
+                 y = cell(texture.sampler.wrap_v, taps.uv.y, empty_cells.height);
+  const MaskOf<T> in_empty = FetchInt(empty_cells.occupied.data(), y * IntOf<T>(empty_cells.width) + x) == IntOf<T>(0);
+  return All(in_empty & MaskOf<T>(taps.reach <= T(empty_cells.reach)));
 }
 
 // Prefetches texels that will be read soon, for one lane in `kStep`. (Inlined, as GCC drops the call otherwise.)
@@ -314,12 +314,12 @@ struct ScalarPairs {
     const std::uint8_t from = data.pair_bytes[i];
     return from == TextureData::kNoByte ? 0 : p[from];
   }
-  HWY_INLINE std::int32_t Number(int i) const {
+  HWY_INLINE std::int32_t Component(int i) const {
     const auto kept = static_cast<std::uint16_t>(Byte(2 * i) | Byte(2 * i + 1) << 8);
     return static_cast<std::int16_t>(data.sparse ? kept ^ 0x8000 : kept);
   }
-  HWY_INLINE std::int32_t Left(int channel) const { return Number(2 * channel); }
-  HWY_INLINE std::int32_t Right(int channel) const { return Number(2 * channel + 1); }
+  HWY_INLINE std::int32_t Left(int channel) const { return Component(2 * channel); }
+  HWY_INLINE std::int32_t Right(int channel) const { return Component(2 * channel + 1); }
 };
 
 #if HWY_TARGET == HWY_SCALAR
@@ -342,13 +342,13 @@ struct TexelSums<T, true> {
 
 #if HWY_TARGET != HWY_SCALAR
 // Byte shuffles: the j-th broadcasts 32-bit word j of each 16-byte block to the whole block.
-struct NumberOfBlocks {
+struct WordOfBlocks {
   alignas(16) std::uint8_t bytes[4][16];
-  constexpr NumberOfBlocks() : bytes{} {
+  constexpr WordOfBlocks() : bytes{} {
     for (int i = 0; i < 64; ++i) bytes[i / 16][i % 16] = static_cast<std::uint8_t>(i / 16 * 4 + i % 4);
   }
 };
-inline constexpr NumberOfBlocks kNumberOfBlocks;
+inline constexpr WordOfBlocks kWordOfBlocks;
 
 // The two texels of a row are one 16-byte block of 16-bit integers (R, R, G, G, B, B, A, A): one multiply-add of pairs
 // weighs both. A vector holds two such blocks, of every fourth lane; four are no faster where 512 bits run in halves.
@@ -373,10 +373,10 @@ HWY_INLINE void SumTexelsInLanes(const TextureData* const* textures, const Textu
     for (int j = 0; j < 4; ++j) {
       hn::Vec<Tag> sum[kCount], more[kCount];  // `more`: on Arm, the sums of every second product
       for (int k = 0; k < kCount; ++k) sum[k] = more[k] = hn::Zero(d32);
-      const auto number = hn::LoadDup128(d8, kNumberOfBlocks.bytes[j]);
+      const auto component = hn::LoadDup128(d8, kWordOfBlocks.bytes[j]);
       const auto weights = [&](const WeightPair<T>& of) HWY_ATTR {
         const auto all = hn::BitCast(d8, hn::Load(d32, of.of_lane.of_lane + first));
-        return hn::BitCast(d16, hn::TableLookupBytes(all, number));
+        return hn::BitCast(d16, hn::TableLookupBytes(all, component));
       };
       int count = 0;  // of the lane that has most taps; the surplus taps of the others have weight 0
       for (int lane = j; lane < kVector; lane += 4) count = std::max(count, taps.of_lane.of_lane[first + lane]);
@@ -386,8 +386,8 @@ HWY_INLINE void SumTexelsInLanes(const TextureData* const* textures, const Textu
           const auto pair_bytes = hn::LoadDup128(d8, textures[k]->pair_bytes);
           const auto pairs = [&](const IndexList<T>& byte) HWY_ATTR {
             const auto texels = EveryFourthRow<1>(d8, textures[k]->bytes.data(), byte.of_lane + first + j);
-            const auto numbers = hn::BitCast(d16, hn::TableLookupBytesOr0(texels, pair_bytes));
-            return kSparse ? hn::Xor(numbers, hn::Set(d16, std::int16_t{-32768})) : numbers;
+            const auto components = hn::BitCast(d16, hn::TableLookupBytesOr0(texels, pair_bytes));
+            return kSparse ? hn::Xor(components, hn::Set(d16, std::int16_t{-32768})) : components;
           };
           sum[k] = hn::ReorderWidenMulAccumulate(d32, pairs(at[i][k][0]), top, sum[k], more[k]);
           sum[k] = hn::ReorderWidenMulAccumulate(d32, pairs(at[i][k][1]), bottom, sum[k], more[k]);
@@ -444,7 +444,7 @@ HWY_INLINE void SumTexels(int count, const TextureData* const* of, const Texture
 template <int kChannels, class T>
 HWY_INLINE Vec4<T> ChannelsOf(const TextureData& data, const TexelSums<T>& sums) {
   // From sums of weighted components to [0, 1]. 16-bit components were summed as code - 32768, which is added back.
-  const T scale((data.wide ? 1.0f / 65535.0f : 1.0f / 255.0f) / kWeightSum<T>);
+  const T scale((data.is_16_bit ? 1.0f / 65535.0f : 1.0f / 255.0f) / kWeightSum<T>);
   Vec4<T> c{};
   if constexpr (kWholeWeights<T>) {
     IntOf<T> of_channel[4];
@@ -459,19 +459,19 @@ HWY_INLINE Vec4<T> ChannelsOf(const TextureData& data, const TexelSums<T>& sums)
     {
       for (int i = 0; i < 4; ++i) of_channel[i] = sums.of_channel[i];
     }
-    const IntOf<T> middle(data.wide ? 32768 * static_cast<std::int32_t>(kWeightSum<T>) : 0);
-    const auto number = [&](int i) HWY_ATTR { return FromInt<T>(of_channel[i] + middle) * scale; };
-    if constexpr ((kChannels & kR) != 0) c.x = number(0);
-    if constexpr ((kChannels & kG) != 0) c.y = number(1);
-    if constexpr ((kChannels & kB) != 0) c.z = number(2);
-    if constexpr ((kChannels & kA) != 0) c.w = number(3);
+    const IntOf<T> middle(data.is_16_bit ? 32768 * static_cast<std::int32_t>(kWeightSum<T>) : 0);
+    const auto component = [&](int i) HWY_ATTR { return FromInt<T>(of_channel[i] + middle) * scale; };
+    if constexpr ((kChannels & kR) != 0) c.x = component(0);
+    if constexpr ((kChannels & kG) != 0) c.y = component(1);
+    if constexpr ((kChannels & kB) != 0) c.z = component(2);
+    if constexpr ((kChannels & kA) != 0) c.w = component(3);
   } else {
-    const T middle(data.wide ? 32768.0f : 0.0f);
-    const auto number = [&](int channel) { return (sums.of_channel[channel] + middle) * scale; };
-    c = {number(0), number(1), number(2), number(3)};
+    const T middle(data.is_16_bit ? 32768.0f : 0.0f);
+    const auto component = [&](int channel) { return (sums.of_channel[channel] + middle) * scale; };
+    c = {component(0), component(1), component(2), component(3)};
   }
   if constexpr ((kChannels & kA) != 0) {
-    if (data.place_of[3] < 0) c.w = T(1.0f);
+    if (data.component_of[3] < 0) c.w = T(1.0f);
   }
   return c;
 }

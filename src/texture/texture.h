@@ -18,15 +18,16 @@ inline constexpr int kMaxTextureLevels = 16;  // 32768 texels a side
 
 // Where an emission texture is black. Most of them are black nearly everywhere, and a sample that touches only black
 // texels need not be read. A cell is one texel of the first mip level that is at most kMaxSide wide and high.
-struct DarkCells {
+struct EmptyCells {
   static constexpr int kMaxSide = 64;
   int width = 0, height = 0;      // in cells; 0: nothing is known about the texture, for example because it is small
   float reach = 0.0f;             // in texels of level 0: all texels within this distance of an empty cell are black
-  std::vector<std::int32_t> lit;  // row by row; 0: the cell and its eight neighbours are black (with repeat wrapping)
+  std::vector<std::int32_t>
+      occupied;  // row by row; 0: the cell and its eight neighbours are black (with repeat wrapping)
 
   // The share of cells that are empty, 0 to 1.
   double Share() const {
-    return lit.empty() ? 0.0 : double(std::count(lit.begin(), lit.end(), 0)) / double(lit.size());
+    return occupied.empty() ? 0.0 : double(std::count(occupied.begin(), occupied.end(), 0)) / double(occupied.size());
   }
 };
 
@@ -36,13 +37,13 @@ struct DarkCells {
 // and one load fetches both. (A layout in squares of 4 x 4 texels needs four loads a footprint and was slower. The
 // extra texel also keeps the distance between rows from being a power of two, which would crowd few cache sets.)
 struct TextureData {
-  bool wide = false;    // true: components have 16 bits, stored as signed integers (code - 32768); false: 8 bits
+  bool is_16_bit = false;  // true: components have 16 bits, stored as signed integers (code - 32768); false: 8 bits
   bool sparse = false;  // 16-bit components are stored unsigned: black is 0, and pages of it take no memory. Only where
                         // the empty cells are known
-  int stored = 0;       // components of a texel
+  int components = 0;   // components of a texel
   // The component that holds each of R, G, B and A; those of a grey image share one. -1: the channel is not stored. An
   // alpha that is not stored reads as 1.
-  int place_of[4] = {-1, -1, -1, -1};
+  int component_of[4] = {-1, -1, -1, -1};
   int levels = 0;
   std::int32_t level_offset[kMaxTextureLevels] = {};  // texels
   std::int32_t level_pitch[kMaxTextureLevels] = {};   // texels from row to row
@@ -52,12 +53,12 @@ struct TextureData {
   // of the second, G of the first, and so on. Each entry is a byte offset from the first texel; kNoByte gives 0.
   std::uint8_t pair_bytes[16] = {};
   PageVector<std::uint8_t> bytes;  // little-endian components of all levels, then kTexelSlack bytes of padding
-  DarkCells dark;
+  EmptyCells empty_cells;
 
   static constexpr std::uint8_t kNoByte = 0x80;
   static constexpr std::size_t kTexelSlack = 16;  // bytes that one load may read beyond the last texel
 
-  int TexelBytes() const { return stored * (wide ? 2 : 1); }
+  int TexelBytes() const { return components * (is_16_bit ? 2 : 1); }
   // The offset in `bytes` of row y of a level.
   std::size_t ByteOf(int level, int y) const {
     return (std::size_t(level_offset[level]) + std::size_t(y) * std::size_t(level_pitch[level])) *

@@ -65,63 +65,63 @@ void ExpandRow(const ExpandRowTask& task) {
 }
 
 // Stores one vector of texels: their components, one vector each, are interleaved.
-template <int kStored, class D, class V>
+template <int kComponents, class D, class V>
 HWY_INLINE void StoreTexels(D d, const V* v, hn::TFromD<D>* out) {
-  if constexpr (kStored == 1) {
+  if constexpr (kComponents == 1) {
     hn::StoreU(v[0], d, out);
-  } else if constexpr (kStored == 2) {
+  } else if constexpr (kComponents == 2) {
     hn::StoreInterleaved2(v[0], v[1], d, out);
-  } else if constexpr (kStored == 3) {
+  } else if constexpr (kComponents == 3) {
     hn::StoreInterleaved3(v[0], v[1], v[2], d, out);
   } else {
     hn::StoreInterleaved4(v[0], v[1], v[2], v[3], d, out);
   }
 }
 
-template <int kStored, class Number>
+template <int kComponents, class Component>
 HWY_INLINE void StoreRowOf(const StoreRowTask& task) {
-  constexpr bool kWide = sizeof(Number) == 2;
-  constexpr std::size_t kTexel = kStored * sizeof(Number);
-  const hn::Rebind<Number, IntTag> d;
-  const Float scale(kWide ? 65535.0f : 255.0f), half(0.5f);
-  const Int sign(kWide && !task.sparse ? 0x8000 : 0);
+  constexpr bool kIs16Bit = sizeof(Component) == 2;
+  constexpr std::size_t kTexel = kComponents * sizeof(Component);
+  const hn::Rebind<Component, IntTag> d;
+  const Float scale(kIs16Bit ? 65535.0f : 255.0f), half(0.5f);
+  const Int sign(kIs16Bit && !task.sparse ? 0x8000 : 0);
   const std::size_t lanes = LaneCount(), width = std::size_t(task.width);
-  Number first[kStored * kMaxLanes];
+  Component first[kComponents * kMaxLanes];
   for (std::size_t x = 0; x < width; x += lanes) {
-    hn::Vec<decltype(d)> numbers[kStored];
+    hn::Vec<decltype(d)> components[kComponents];
     Int any(0);
-    for (int k = 0; k < kStored; ++k) {
+    for (int k = 0; k < kComponents; ++k) {
       const Int code = TruncateToInt(LoadFloat(task.planes[k] + x) * scale + half);
-      numbers[k] = hn::DemoteTo(d, (code ^ sign).raw);
+      components[k] = hn::DemoteTo(d, (code ^ sign).raw);
       any = any | code;
     }
-    if (x == 0) StoreTexels<kStored>(d, numbers, first);
-    if (task.leave_black && All(any == Int(0))) continue;
+    if (x == 0) StoreTexels<kComponents>(d, components, first);
+    if (task.skip_black && All(any == Int(0))) continue;
     std::uint8_t* out = task.bytes + x * kTexel;
     if (x + lanes <= width) {  // rows begin at a whole texel, so 16-bit components are aligned
-      StoreTexels<kStored>(d, numbers, reinterpret_cast<Number*>(out));
+      StoreTexels<kComponents>(d, components, reinterpret_cast<Component*>(out));
     } else {
-      Number texels[kStored * kMaxLanes];
-      StoreTexels<kStored>(d, numbers, texels);
+      Component texels[kComponents * kMaxLanes];
+      StoreTexels<kComponents>(d, components, texels);
       std::memcpy(out, texels, (width - x) * kTexel);
     }
   }
-  if (task.leave_black && std::all_of(first, first + kStored, [](Number n) { return n == 0; })) return;
+  if (task.skip_black && std::all_of(first, first + kComponents, [](Component n) { return n == 0; })) return;
   std::memcpy(task.bytes + width * kTexel, first, kTexel);
 }
 
-template <class Number>
+template <class Component>
 HWY_INLINE void StoreRowOf(const StoreRowTask& task) {
-  switch (task.stored) {
-    case 1: return StoreRowOf<1, Number>(task);
-    case 2: return StoreRowOf<2, Number>(task);
-    case 3: return StoreRowOf<3, Number>(task);
-    default: return StoreRowOf<4, Number>(task);
+  switch (task.components) {
+    case 1: return StoreRowOf<1, Component>(task);
+    case 2: return StoreRowOf<2, Component>(task);
+    case 3: return StoreRowOf<3, Component>(task);
+    default: return StoreRowOf<4, Component>(task);
   }
 }
 
 void StoreRow(const StoreRowTask& task) {
-  task.wide ? StoreRowOf<std::uint16_t>(task) : StoreRowOf<std::uint8_t>(task);
+  task.is_16_bit ? StoreRowOf<std::uint16_t>(task) : StoreRowOf<std::uint8_t>(task);
 }
 
 // `kTaps`: how many texels of a row contribute to one texel of the next level.

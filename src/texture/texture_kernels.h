@@ -24,10 +24,10 @@ void ExpandRow(const ExpandRowTask& task);
 // Stores a row of texels in [0, 1], rounded to 8 or 16 bits, and repeats its first texel at its end (see TextureData).
 struct StoreRowTask {
   const float* planes[4];  // one for each component of a texel
-  int stored;              // components of a texel
+  int components;          // components of a texel
   std::int32_t width;
-  bool wide, sparse;    // as in TextureData
-  bool leave_black;     // vectors of black texels are not written: the memory is zero already
+  bool is_16_bit, sparse;  // as in TextureData
+  bool skip_black;         // vectors of black texels are not written: the memory is zero already
   std::uint8_t* bytes;  // where the row's first texel goes
 };
 void StoreRow(const StoreRowTask& task);

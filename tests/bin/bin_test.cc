@@ -15,10 +15,10 @@ namespace {
 
 constexpr int kWidth = 150, kHeight = 90;
 
-std::vector<TriangleRecord> MixedRecords(Random& random) {
-  std::vector<TriangleRecord> records;
+std::vector<ScreenTriangle> MixedRecords(Random& random) {
+  std::vector<ScreenTriangle> records;
   const auto add = [&](PointFx8 a, PointFx8 b, PointFx8 c) {
-    if (DoubleArea(a, b, c) != 0) records.push_back(MakeRecord(a, b, c));
+    if (DoubleArea(a, b, c) != 0) records.push_back(MakeScreenTriangle(a, b, c));
   };
   const auto inside = [&] {
     return PointFx8{random.Int(-2000, kWidth * 256 + 2000), random.Int(-2000, kHeight * 256 + 2000)};
@@ -76,10 +76,10 @@ TEST(Bin, TilesHoldAllThatBruteForceFinds) {
         EXPECT_TRUE(tiles.insert(chunk.tiles[t]).second) << "a tile comes twice";
         ASSERT_LT(chunk.tiles[t], static_cast<std::uint32_t>(grid.Count()));
         ASSERT_LT(chunk.begin[t], chunk.begin[t + 1]) << "an empty run";
-        std::vector<const TriangleRecord*> pointers;
+        std::vector<const ScreenTriangle*> pointers;
         std::vector<std::int32_t> numbers;
         for (std::uint32_t e = chunk.begin[t]; e < chunk.begin[t + 1]; ++e) {
-          const TriangleRecord& record = chunk.records[chunk.entries[e]];
+          const ScreenTriangle& record = chunk.records[chunk.entries[e]];
           if (e > chunk.begin[t]) {
             EXPECT_LT(pointers.back()->primitive, record.primitive) << "submission order";
           }
@@ -104,18 +104,19 @@ TEST(Bin, TilesHoldAllThatBruteForceFinds) {
 TEST(Bin, ThinDiagonalsTouchFewTiles) {
   const TileGrid grid = MakeTileGrid(1024, 1024, 32);
   TriangleChunk chunk;
-  chunk.records = {MakeRecord({0, 0}, {1024 * 256, 1024 * 256}, {1024 * 256, 1024 * 256 - 100})};
+  chunk.records = {MakeScreenTriangle({0, 0}, {1024 * 256, 1024 * 256}, {1024 * 256, 1024 * 256 - 100})};
   BinChunk(grid, chunk);
   EXPECT_GE(chunk.tiles.size(), 32u);
   EXPECT_LE(chunk.tiles.size(), 3u * 32u);
 }
 
-TEST(Bin, NothingForRecordsOutsideThePicture) {
+TEST(Bin, NothingForRecordsOutsideTheImage) {
   const TileGrid grid = MakeTileGrid(100, 100, 16);
   TriangleChunk chunk;
-  chunk.records = {MakeRecord({-900, 0}, {-100, 0}, {-500, 900}), MakeRecord({0, -900}, {900, -900}, {0, -10}),
-                   MakeRecord({112 * 256, 0}, {120 * 256, 0}, {112 * 256, 2000}),
-                   MakeRecord({0, 112 * 256}, {900, 112 * 256}, {0, 113 * 256})};
+  chunk.records = {MakeScreenTriangle({-900, 0}, {-100, 0}, {-500, 900}),
+                   MakeScreenTriangle({0, -900}, {900, -900}, {0, -10}),
+                   MakeScreenTriangle({112 * 256, 0}, {120 * 256, 0}, {112 * 256, 2000}),
+                   MakeScreenTriangle({0, 112 * 256}, {900, 112 * 256}, {0, 113 * 256})};
   BinChunk(grid, chunk);
   EXPECT_TRUE(chunk.entries.empty());
   EXPECT_TRUE(chunk.tiles.empty());
@@ -129,15 +130,15 @@ TEST(Bin, TilesAscendWhereThereAreMillions) {
     TriangleChunk chunk;
     for (int i = 0; i < count; ++i) {
       const int x = random.Int(0, 16380 * 256), y = random.Int(0, i % 2 == 0 ? 1 : 2047) * 2048 + 5;  // one row of tiles
-      chunk.records.push_back(MakeRecord({x, y}, {x + 300, y}, {x, y + 300}));
+      chunk.records.push_back(MakeScreenTriangle({x, y}, {x + 300, y}, {x, y + 300}));
       chunk.records.back().primitive = static_cast<std::uint32_t>(i);
     }
-    const std::vector<TriangleRecord> submitted = chunk.records;
+    const std::vector<ScreenTriangle> submitted = chunk.records;
     BinChunk(grid, chunk);
     ASSERT_EQ(chunk.records.size(), submitted.size());
     std::map<std::uint32_t, std::vector<std::uint32_t>> expected;
     for (std::uint32_t i = 0; i < submitted.size(); ++i) {
-      const TriangleRecord& r = submitted[i];
+      const ScreenTriangle& r = submitted[i];
       for (int x = r.x_fx8[0] / 2048; x <= (r.x_fx8[0] + 300) / 2048; ++x) {
         expected[static_cast<std::uint32_t>(r.y_fx8[0] / 2048 * grid.columns + x)].push_back(i);
       }
@@ -159,9 +160,9 @@ TEST(Bin, TilesAscendWhereThereAreMillions) {
 TEST(Bin, ChunksAreFilledAnew) {
   const TileGrid grid = MakeTileGrid(100, 100, 16);
   TriangleChunk once, again;
-  again.records = {MakeRecord({0, 0}, {9000, 0}, {0, 9000}), MakeRecord({0, 0}, {900, 0}, {0, 900})};
+  again.records = {MakeScreenTriangle({0, 0}, {9000, 0}, {0, 9000}), MakeScreenTriangle({0, 0}, {900, 0}, {0, 900})};
   BinChunk(grid, again);
-  once.records = again.records = {MakeRecord({5000, 5000}, {5900, 5000}, {5000, 5900})};
+  once.records = again.records = {MakeScreenTriangle({5000, 5000}, {5900, 5000}, {5000, 5900})};
   BinChunk(grid, once);
   BinChunk(grid, again);
   EXPECT_EQ(again.tiles, once.tiles);
@@ -181,7 +182,7 @@ TEST(Bin, ListsAreCharged) {
   const TileGrid grid = MakeTileGrid(1024, 1024, 8);
   TriangleChunk source;
   for (int i = 0; i < 50; ++i) {
-    source.records.push_back(MakeRecord({0, 0}, {1024 * 256, 0}, {1024 * 256, 1024 * 256}));
+    source.records.push_back(MakeScreenTriangle({0, 0}, {1024 * 256, 0}, {1024 * 256, 1024 * 256}));
   }
   const std::string refusal = MemoryRefusalUnder(1 << 22, [&] {
     TriangleChunk chunk = source;
@@ -196,7 +197,7 @@ TEST(Bin, ListsAreCharged) {
   BinChunk(grid, chunk);
   ASSERT_GE(chunk.entries.size(), 50u * 128u * 64u);
   EXPECT_EQ(budget.limit() - budget.Left(),
-            chunk.records.size() * sizeof(TriangleRecord) +
+            chunk.records.size() * sizeof(ScreenTriangle) +
                 (chunk.entries.size() + chunk.tiles.size() + chunk.begin.size()) * sizeof(std::uint32_t));
 }
 

@@ -286,7 +286,7 @@ TEST(Blend, OverTheEnvironment) {
 
 TEST(Mask, KeepsWhatReachesTheCutoff) {
   // Alpha of pixel (x, y) is its texel's, x * 16 + y in 255ths.
-  const Image image = Picture(16, 16, [](int x, int y) { return glm::u8vec4(255, 255, 255, x * 16 + y); });
+  const Image image = MakeImage(16, 16, [](int x, int y) { return glm::u8vec4(255, 255, 255, x * 16 + y); });
   Sampler sampler;
   sampler.magnification = sampler.minification = Filter::Nearest;
   for (int cutoff : {0, 1, 100, 128, 254, 255, 256}) {

@@ -95,7 +95,7 @@ TEST_F(CheckFile, EqualFilmsAreDecidedWithoutAnyPicture) {
 }
 
 // The film does not know of exposure, tone curve and background: the picture does.
-TEST_F(CheckFile, EqualFilmsAreDevelopedAsTheirPictureWas) {
+TEST_F(CheckFile, EqualFilmsAreEncodedAsTheirPictureWas) {
   Manifest(Entry("a", R"("settings": {"exposure": 1}, "expect": {"picture": "a.png"})"));
   Update();
   EXPECT_EQ(Only().verdict, Verdict::Passed);

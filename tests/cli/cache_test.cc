@@ -88,7 +88,7 @@ TEST_F(FacetCache, PicturesAreTheSameWithoutColdAndWarm) {
 TEST_F(FacetCache, WarmRunsDoNotDecode) {
   const std::string expected = Draw({});
   const EnvironmentOptions options;  // render's defaults
-  const auto map = PrefilterEnvironment(*OpenEnvironment(sky_, cache_)->Picture(), options);
+  const auto map = PrefilterEnvironment(*OpenEnvironment(sky_, cache_)->Decode(), options);
   WriteText(sky_, "no picture at all");
   EXPECT_EQ(Run({"--cache", cache_}).exit_code, 4);
   EXPECT_TRUE(Entries().empty());

@@ -99,7 +99,7 @@ TEST(FacetExplain, ErrorsAreThoseOfTheOtherCommands) {
   }
 }
 
-// --- Leaving out -----------------------------------------------------------------------------------------------------
+// --- Leaving out ----------------------------------------------------------------------------------------------------
 
 TEST(FacetWithout, UnknownWordsAreAnsweredWithTheList) {
   const Folder folder;

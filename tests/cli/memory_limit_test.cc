@@ -82,7 +82,7 @@ TEST_F(FacetMemoryLimit, StatsOfBandsAreThoseOfTheWhole) {
 }
 
 TEST_F(FacetMemoryLimit, RefusesFilms) {
-  // 16 bytes a pixel, and what is developed from it twice, for the encoder as well.
+  // 16 bytes a pixel, and what is tone-mapped and encoded from it twice, for the encoder as well.
   ExpectRefused(
       Draw(tiny_, folder_ / "out.exr", {"--size", "16384x16384", "--memory-limit", "1GiB"}),
       "this needs 4.0 GiB for a film of 16384 x 16384 pixels, and the memory limit is 1.0 GiB; make the picture "

@@ -30,7 +30,7 @@ void ExpectMatchesHomogeneous(const FrameView& view, const glm::vec3 (&p)[3], in
                           return answer == Answer::Unsure ? -1 : answer == Answer::Inside ? 1 : 0;
                         }),
             "");
-  for (const TriangleRecord& r : out.chunk.records) {
+  for (const ScreenTriangle& r : out.chunk.records) {
     for (int i = 0; i < 3; ++i) {
       // What the rasteriser's 32-bit arithmetic counts on.
       EXPECT_LE(std::abs(r.x_fx8[i] - kWidth * 128), kGuardBand * 256 + 256);
@@ -110,7 +110,7 @@ TEST(Clip, DepthsAreFloats) {
       primitive.positions.emplace_back(glm::dvec3(at, -1.0) * distance);
     }
     const FrameDrawable drawable = PlaceDrawable(view, primitive, glm::dmat4(1.0), true);
-    for (const TriangleRecord& r : Assemble(view, drawable, 8).chunk.records) {
+    for (const ScreenTriangle& r : Assemble(view, drawable, 8).chunk.records) {
       const double most{std::numeric_limits<float>::max()};
       steep += std::fabs(r.depth_dx) >= kSteepestDepth || std::fabs(r.depth_dy) >= kSteepestDepth;
       for (const double x : {GreatestOf(r.x_fx8) / 256.0 + kBlockSize, LeastOf(r.x_fx8) / 256.0 - kBlockSize}) {
@@ -170,7 +170,7 @@ TEST(Clip, VerticesThatAreNotFiniteTakeTheirTrianglesWithThem) {
             primitive.positions[std::size_t(vertex)][axis] = bad;
             const FrameDrawable drawable = PlaceDrawable(view, primitive, glm::dmat4(1.0), true);
             const Assembled out = Assemble(view, drawable, 4);
-            for (const TriangleRecord& r : out.chunk.records) {
+            for (const ScreenTriangle& r : out.chunk.records) {
               ASSERT_NE(topology, Topology::Triangles);
               ASSERT_LE(std::abs(r.x_fx8[0]), 2 * kGuardBand * 256);
             }
@@ -187,7 +187,7 @@ TEST(Clip, VerticesThatAreNotFiniteTakeTheirTrianglesWithThem) {
         primitive.positions.push_back({values[random.Int(0, 7)], values[random.Int(0, 7)], values[random.Int(0, 7)]});
       primitive.topology = i % 2 == 0 ? Topology::Triangles : Topology::LineLoop;
       const FrameDrawable drawable = PlaceDrawable(view, primitive, glm::dmat4(1.0), true);
-      for (const TriangleRecord& r : Assemble(view, drawable, 4).chunk.records) {
+      for (const ScreenTriangle& r : Assemble(view, drawable, 4).chunk.records) {
         for (int k = 0; k < 3; ++k) {
           ASSERT_LE(std::abs(r.x_fx8[k]), 2 * kGuardBand * 256) << "seed 45";
           ASSERT_LE(std::abs(r.y_fx8[k]), 2 * kGuardBand * 256) << "seed 45";
@@ -289,7 +289,7 @@ TEST(Clip, VerticesThatNeedNoClippingKeepTheirPlace) {
       if ((out.vertices[v].outcode & kOutClip) != 0) continue;
       ++found;
       bool kept = false;
-      for (const TriangleRecord& r : out.chunk.records) {
+      for (const ScreenTriangle& r : out.chunk.records) {
         for (int k = 0; k < 3; ++k)
           kept = kept || (r.x_fx8[k] == out.vertices[v].x_fx8 && r.y_fx8[k] == out.vertices[v].y_fx8);
       }
@@ -361,7 +361,7 @@ TEST(Clip, DepthOfPiecesIsThatOfTheWhole) {
     const FrameDrawable drawable = PlaceDrawable(view, primitive, glm::dmat4(1.0), true);
     const auto h = [&](int k) { return HomogeneousOf(drawable, primitive.positions[std::size_t(k)]); };
     const HomogeneousTriangle exact(h(0), h(1), h(2));
-    const std::vector<TriangleRecord> records = Assemble(view, drawable, 4).chunk.records;
+    const std::vector<ScreenTriangle> records = Assemble(view, drawable, 4).chunk.records;
     if (records.empty() || exact.Degenerate()) continue;
     const glm::dvec3 inverse = exact.Inverse();
     // Steep planes move with the snapping of their vertices.

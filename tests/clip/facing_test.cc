@@ -35,7 +35,7 @@ TEST(Facing, AllSignsOfScale) {
         const Assembled out = Assemble(view, drawable, 1);
         ASSERT_EQ(out.chunk.records.size(), front || double_sided ? 2u : 0u);
         EXPECT_EQ(out.chunk.culled, front || double_sided ? 0u : 2u);
-        for (const TriangleRecord& r : out.chunk.records) EXPECT_EQ(r.back_facing, !front);
+        for (const ScreenTriangle& r : out.chunk.records) EXPECT_EQ(r.back_facing, !front);
         // 3 units at distance 5 and a focal length of 60: 36 pixels.
         CoverageCount got = CountCoverage(out.chunk.records, 64, 64, 32, 1);
         EXPECT_EQ(got.Total(), front || double_sided ? 36 * 36 : 0);
@@ -60,7 +60,7 @@ TEST(Facing, ClippedTrianglesAreCulledTheSame) {
     if (std::fabs(side) < 5.0) continue;
     const FrameDrawable drawable = PlaceDrawable(view, primitive, glm::dmat4(1.0), true);
     const Assembled both = Assemble(view, drawable, 8);
-    for (const TriangleRecord& r : both.chunk.records) {
+    for (const ScreenTriangle& r : both.chunk.records) {
       // A piece of a few units of area may be turned by the snapping.
       if (DoubleArea({r.x_fx8[0], r.y_fx8[0]}, {r.x_fx8[1], r.y_fx8[1]}, {r.x_fx8[2], r.y_fx8[2]}) < 65536) continue;
       EXPECT_EQ(r.back_facing, side < 0.0) << "seed 61, triangle " << i;
@@ -103,7 +103,7 @@ TEST(Facing, SmallTrianglesThatCoverASampleStay) {
     const FrameDrawable drawable = PlaceDrawable(view, primitive, glm::dmat4(1.0), true);
     const Assembled out = Assemble(view, drawable, samples);
     CoverageCount got = CountCoverage(out.chunk.records, 8, 8, 8, samples);
-    const TriangleRecord exact = MakeRecord(v[0], v[1], v[2]);
+    const ScreenTriangle exact = MakeScreenTriangle(v[0], v[1], v[2]);
     EXPECT_EQ(
         Differences(got, [&](int x, int y, int s) { return CoversExactly(exact, SampleAt(x, y, samples, s)) ? 1 : 0; }),
         "")

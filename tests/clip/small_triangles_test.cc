@@ -15,7 +15,7 @@ namespace {
 constexpr int kWidth = 300, kHeight = 200;
 
 // Triangles of a few pixels, on the grid of snapped positions often enough to be degenerate, to lie between samples and
-// to have edges through them. With `others`, every tenth is large, beyond the picture, behind the eye or not finite.
+// to have edges through them. With `others`, every tenth is large, beyond the image, behind the eye or not finite.
 Primitive Soup(Random& random, int count, bool others) {
   Primitive soup;
   const auto vertex = [&](double x, double y, double z) {
@@ -36,7 +36,7 @@ Primitive Soup(Random& random, int count, bool others) {
   return soup;
 }
 
-std::string Bits(const TriangleRecord& r) {
+std::string Bits(const ScreenTriangle& r) {
   std::string text;
   const auto add = [&](const auto& value) {
     text.append(reinterpret_cast<const char*>(&value), sizeof value);
@@ -49,9 +49,9 @@ std::string Bits(const TriangleRecord& r) {
 
 using BitsByPrimitive = std::map<std::uint32_t, std::vector<std::string>>;
 
-BitsByPrimitive BitsOf(const std::vector<TriangleRecord>& records) {
+BitsByPrimitive BitsOf(const std::vector<ScreenTriangle>& records) {
   BitsByPrimitive bits;
-  for (const TriangleRecord& r : records) bits[r.primitive].push_back(Bits(r));
+  for (const ScreenTriangle& r : records) bits[r.primitive].push_back(Bits(r));
   return bits;
 }
 
@@ -69,7 +69,7 @@ TEST(SmallTriangles, SameRecordsAsOneByOne) {
       drawable.mirrored = mirrored;
       return drawable;
     };
-    // A triangle across the whole picture beside each: then none of its group is set up with others.
+    // A triangle across the whole image beside each: then none of its group is set up with others.
     BitsByPrimitive expected;
     std::uint64_t culled = 0, clipped = 0;
     for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(count); ++i) {
@@ -78,7 +78,7 @@ TEST(SmallTriangles, SameRecordsAsOneByOne) {
                         {-9, -9, -5},          {9, -9, -5},               {0, 9, -5}};
       pair.indices = {0, 1, 2, 3, 4, 5};
       const Assembled both = Assemble(view, place(pair), samples);
-      for (const TriangleRecord& r : both.chunk.records) {
+      for (const ScreenTriangle& r : both.chunk.records) {
         if (r.primitive == 0) expected[i].push_back(Bits(r));
       }
       culled += both.chunk.culled, clipped += both.chunk.clipped;
@@ -108,7 +108,7 @@ void ExpectThatWhatIsCulledCoversNothing(Target target) {
     const Assembled out = Assemble(view, drawable, samples);
     EXPECT_EQ(out.chunk.records.size() + out.chunk.culled + out.chunk.clipped, 2000u);
     std::vector<bool> kept(2000, false);
-    for (const TriangleRecord& r : out.chunk.records) kept[r.primitive] = true;
+    for (const ScreenTriangle& r : out.chunk.records) kept[r.primitive] = true;
     for (std::uint32_t i = 0; i < 2000; ++i) {
       if (kept[i]) continue;
       PointFx8 p[3];
@@ -117,7 +117,7 @@ void ExpectThatWhatIsCulledCoversNothing(Target target) {
       }
       if (DoubleArea(p[0], p[1], p[2]) == 0) continue;
       ++culled_with_area;
-      const TriangleRecord r = MakeRecord(p[0], p[1], p[2]);
+      const ScreenTriangle r = MakeScreenTriangle(p[0], p[1], p[2]);
       const auto [low_x, high_x] = std::minmax({p[0].x, p[1].x, p[2].x});
       const auto [low_y, high_y] = std::minmax({p[0].y, p[1].y, p[2].y});
       for (int y = std::max(low_y >> 8, 0); y <= std::min(high_y >> 8, kHeight - 1); ++y) {
@@ -153,7 +153,7 @@ TEST(SmallTriangles, KnownCoverageIsExact) {
       const int side = samples <= 2 ? 3 : 2;  // pixels
       int known = 0, wide = 0;
       const Assembled out = Assemble(view, PlaceDrawable(view, soup, glm::dmat4(1.0), true), samples);
-      for (const TriangleRecord& r : out.chunk.records) {
+      for (const ScreenTriangle& r : out.chunk.records) {
         const auto [low_x, high_x] = std::minmax({r.x_fx8[0], r.x_fx8[1], r.x_fx8[2]});
         const auto [low_y, high_y] = std::minmax({r.y_fx8[0], r.y_fx8[1], r.y_fx8[2]});
         std::uint32_t expected = 0;

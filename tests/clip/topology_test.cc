@@ -115,7 +115,7 @@ TEST(Lines, RemainUnderTheNearPlaneAndTheGuardBand) {
   const FrameDrawable drawable = PlaceDrawable(view, line);
   const Assembled out = Assemble(view, drawable, 1);
   CoverageCount got = CountCoverage(out.chunk.records, 64, 64, 16, 1);
-  // At distance 1 x is 0, the picture's middle; at distance 3 it is 1/3 of 32 pixels further right. y is near 32.5.
+  // At distance 1 x is 0, the image's middle; at distance 3 it is 1/3 of 32 pixels further right. y is near 32.5.
   EXPECT_EQ(out.chunk.clipped, 1u);
   int columns = 0;
   for (int x = 0; x < 64; ++x) columns += got.At(x, 32, 0);

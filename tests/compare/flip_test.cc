@@ -9,7 +9,7 @@
 
 #include "color/srgb.h"
 #include "compare/flip.h"
-#include "compare/formula_pictures.h"
+#include "compare/formula_images.h"
 #include "facet/compare.h"
 
 namespace facet::test {
@@ -99,8 +99,8 @@ constexpr Official kOfficial[] = {
 
 TEST(Flip, AgreesWithItsAuthorsProgram) {
   for (const Official& o : kOfficial) {
-    const Image a = o.light ? FloatPicture(o.width, o.height, false) : BytePicture(o.width, o.height, false);
-    const Image b = o.light ? FloatPicture(o.width, o.height, true) : BytePicture(o.width, o.height, true);
+    const Image a = o.light ? FloatImage(o.width, o.height, false) : ByteImage(o.width, o.height, false);
+    const Image b = o.light ? FloatImage(o.width, o.height, true) : ByteImage(o.width, o.height, true);
     const ImageDifference d = CompareImages(a, b, {o.pixels_per_degree});
     EXPECT_EQ(d.linear, o.light);
     EXPECT_NEAR(d.flip_mean, o.mean, 3e-7);
@@ -112,7 +112,7 @@ TEST(Flip, AgreesWithItsAuthorsProgram) {
 
 // Tiles and the repeated border: inside, a crop has the errors of the whole.
 TEST(Flip, ErrorsDependOnTheNeighbourhoodAlone) {
-  const Image a = BytePicture(330, 150, false), b = BytePicture(330, 150, true);
+  const Image a = ByteImage(330, 150, false), b = ByteImage(330, 150, true);
   const ImageDifference whole = CompareImages(a, b);
   constexpr int kLeft = 57, kTop = 3, kWidth = 200, kHeight = 140, kReach = 10;
   const ImageDifference crop =
@@ -154,7 +154,7 @@ TEST(Flip, FineNoiseVanishesFromAfar) {
 
 // The exposures follow the reference's light.
 TEST(HdrFlip, IsBlindToTheUnitOfLight) {
-  const Image a = FloatPicture(60, 40, false), b = FloatPicture(60, 40, true);
+  const Image a = FloatImage(60, 40, false), b = FloatImage(60, 40, true);
   const auto scaled = [](Image image) {
     for (std::size_t i = 0; i < image.PixelCount() * 3; ++i) image.As<float>()[i] *= 0x1p-20f;
     return image;

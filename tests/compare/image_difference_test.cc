@@ -8,7 +8,7 @@
 
 #include "base/parallel.h"
 #include "color/srgb.h"
-#include "compare/formula_pictures.h"
+#include "compare/formula_images.h"
 #include "facet/compare.h"
 #include "facet/error.h"
 
@@ -18,7 +18,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 template <class T>
-Image Picture(int width, int height, int channels, const std::vector<T>& numbers) {
+Image MakeImage(int width, int height, int channels, const std::vector<T>& numbers) {
   constexpr ChannelType kType = sizeof(T) == 1 ? ChannelType::U8 : sizeof(T) == 2 ? ChannelType::U16 : ChannelType::F32;
   Image image = Blank(width, height, channels, kType, sizeof(T) == 4 ? Encoding::Linear : Encoding::Srgb);
   EXPECT_EQ(image.bytes.size(), numbers.size() * sizeof(T));
@@ -30,14 +30,14 @@ template <class T>
 Image Filled(int width, int height, const std::vector<T>& pixel) {
   std::vector<T> numbers;
   for (int i = 0; i < width * height; ++i) numbers.insert(numbers.end(), pixel.begin(), pixel.end());
-  return Picture(width, height, static_cast<int>(pixel.size()), numbers);
+  return MakeImage(width, height, static_cast<int>(pixel.size()), numbers);
 }
 
 using Bytes = std::vector<std::uint8_t>;
 using Words = std::vector<std::uint16_t>;
 using Floats = std::vector<float>;
 
-void ExpectEqualPictures(const Image& a, const Image& b) {
+void ExpectEqualImages(const Image& a, const Image& b) {
   const ImageDifference d = CompareImages(a, b);
   EXPECT_TRUE(d.equal);
   EXPECT_EQ(d.max_difference, 0.0);
@@ -52,16 +52,16 @@ void ExpectEqualPictures(const Image& a, const Image& b) {
 
 TEST(ImageDifference, EqualNumbersAreEqualInEveryForm) {
   const Image rgb = Filled<std::uint8_t>(5, 4, {17, 17, 17});
-  ExpectEqualPictures(rgb, rgb);
-  ExpectEqualPictures(rgb, Filled<std::uint8_t>(5, 4, {17}));       // grey
-  ExpectEqualPictures(rgb, Filled<std::uint8_t>(5, 4, {17, 255}));  // opaque
-  ExpectEqualPictures(rgb, Filled<std::uint8_t>(5, 4, {17, 17, 17, 255}));
-  ExpectEqualPictures(rgb, Filled<std::uint16_t>(5, 4, {17 * 257, 17 * 257, 17 * 257}));
-  ExpectEqualPictures(rgb, Filled<float>(5, 4, {Srgb8ToLinearTable()[17]}));  // the same light
+  ExpectEqualImages(rgb, rgb);
+  ExpectEqualImages(rgb, Filled<std::uint8_t>(5, 4, {17}));       // grey
+  ExpectEqualImages(rgb, Filled<std::uint8_t>(5, 4, {17, 255}));  // opaque
+  ExpectEqualImages(rgb, Filled<std::uint8_t>(5, 4, {17, 17, 17, 255}));
+  ExpectEqualImages(rgb, Filled<std::uint16_t>(5, 4, {17 * 257, 17 * 257, 17 * 257}));
+  ExpectEqualImages(rgb, Filled<float>(5, 4, {Srgb8ToLinearTable()[17]}));  // the same light
   for (int code = 0; code < 256; ++code) {
     const auto byte = static_cast<std::uint8_t>(code);
     const auto word = static_cast<std::uint16_t>(code * 257);
-    EXPECT_TRUE(CompareImages(Picture(1, 1, 1, Bytes{byte}), Picture(1, 1, 1, Words{word})).equal) << code;
+    EXPECT_TRUE(CompareImages(MakeImage(1, 1, 1, Bytes{byte}), MakeImage(1, 1, 1, Words{word})).equal) << code;
   }
 }
 
@@ -78,7 +78,7 @@ TEST(ImageDifference, SaysWhereAndHowMuch) {
   EXPECT_EQ(d.max_y, 2);
   EXPECT_EQ(d.differing_pixels, 3u);
   EXPECT_DOUBLE_EQ(d.rmse, std::sqrt((100.0 + 100.0 + 1.0) / (6 * 4 * 3)) / 255.0);
-  const ImageDifference deeper = CompareImages(Picture(1, 1, 1, Bytes{7}), Picture(1, 1, 1, Words{7 * 257 + 1}));
+  const ImageDifference deeper = CompareImages(MakeImage(1, 1, 1, Bytes{7}), MakeImage(1, 1, 1, Words{7 * 257 + 1}));
   EXPECT_NEAR(deeper.max_difference, 1.0 / 65535.0, 1e-16);
 }
 
@@ -124,8 +124,8 @@ TEST(ImageDifference, SsimOfASideShorterThanTheWindow) {
   const double expected =
       (2 * ma * mb + c1) * (2 * (ab - ma * mb) + c2) / ((ma * ma + mb * mb + c1) * (aa - ma * ma + bb - mb * mb + c2));
   const Bytes numbers_a(a, a + 3), numbers_b(b, b + 3);
-  EXPECT_NEAR(CompareImages(Picture(3, 1, 1, numbers_a), Picture(3, 1, 1, numbers_b)).ssim, expected, 1e-12);
-  EXPECT_NEAR(CompareImages(Picture(1, 3, 1, numbers_a), Picture(1, 3, 1, numbers_b)).ssim, expected, 1e-12);
+  EXPECT_NEAR(CompareImages(MakeImage(3, 1, 1, numbers_a), MakeImage(3, 1, 1, numbers_b)).ssim, expected, 1e-12);
+  EXPECT_NEAR(CompareImages(MakeImage(1, 3, 1, numbers_a), MakeImage(1, 3, 1, numbers_b)).ssim, expected, 1e-12);
 }
 
 // Figures: scikit-image 0.19.3, structural_similarity(luma a, luma b, data_range=1, gaussian_weights=True, sigma=1.5,
@@ -137,8 +137,7 @@ TEST(ImageDifference, AgreesWithScikitImage) {
   };
   for (const Case& c : {Case{96, 64, 0.623014328818, 0.106597584225}, Case{40, 200, 0.697833739448, 0.075953206184},
                         Case{300, 20, 0.328237431120, 0.162581428055}}) {
-    const ImageDifference d =
-        CompareImages(BytePicture(c.width, c.height, false), BytePicture(c.width, c.height, true));
+    const ImageDifference d = CompareImages(ByteImage(c.width, c.height, false), ByteImage(c.width, c.height, true));
     EXPECT_NEAR(d.ssim, c.ssim, 1e-11);
     EXPECT_NEAR(d.rmse, c.rmse, 1e-11);
   }
@@ -159,8 +158,8 @@ TEST(ImageDifference, SsimOfLightIsThatOfItsDisplay) {
 
 TEST(ImageDifference, SymmetricButForHdrFlip) {
   for (const bool light : {false, true}) {
-    const Image a = light ? FloatPicture(60, 40, false) : BytePicture(60, 40, false);
-    const Image b = light ? FloatPicture(60, 40, true) : BytePicture(60, 40, true);
+    const Image a = light ? FloatImage(60, 40, false) : ByteImage(60, 40, false);
+    const Image b = light ? FloatImage(60, 40, true) : ByteImage(60, 40, true);
     const ImageDifference ab = CompareImages(a, b), ba = CompareImages(b, a);
     EXPECT_EQ(ab.max_difference, ba.max_difference);
     EXPECT_EQ(ab.rmse, ba.rmse);
@@ -171,8 +170,8 @@ TEST(ImageDifference, SymmetricButForHdrFlip) {
 
 TEST(ImageDifference, SameBitsForAnyNumberOfThreads) {
   for (const bool light : {false, true}) {
-    const Image a = light ? FloatPicture(290, 150, false) : BytePicture(290, 150, false);
-    const Image b = light ? FloatPicture(290, 150, true) : BytePicture(290, 150, true);
+    const Image a = light ? FloatImage(290, 150, false) : ByteImage(290, 150, false);
+    const Image b = light ? FloatImage(290, 150, true) : ByteImage(290, 150, true);
     ImageDifference one, eight;
     RunWithThreads(1, [&] { one = CompareImages(a, b); });
     RunWithThreads(8, [&] { eight = CompareImages(a, b); });
@@ -185,7 +184,7 @@ TEST(ImageDifference, SameBitsForAnyNumberOfThreads) {
   }
 }
 
-// ---- Alpha ----------------------------------------------------------------------------------------------------------
+// ---- Alpha ---------------------------------------------------------------------------------------------------------
 
 TEST(ImageDifferenceAlpha, IsAChannelOfDifferencesAndRmse) {
   const ImageDifference d =
@@ -193,7 +192,7 @@ TEST(ImageDifferenceAlpha, IsAChannelOfDifferencesAndRmse) {
   EXPECT_DOUBLE_EQ(d.max_difference, 0.2);
   EXPECT_NEAR(d.rmse, 0.2 / 2.0, 1e-15);  // one of four channels
   EXPECT_EQ(d.differing_pixels, 144u);
-  // Against a picture without alpha it is as if that were opaque.
+  // Against an image without alpha it is as if that were opaque.
   const ImageDifference other =
       CompareImages(Filled<std::uint8_t>(12, 12, {50, 60, 70}), Filled<std::uint8_t>(12, 12, {50, 60, 70, 204}));
   EXPECT_EQ(other.rmse, d.rmse);
@@ -209,7 +208,7 @@ TEST(ImageDifferenceAlpha, ColoursOfTheTransparentAreNotSeen) {
   EXPECT_EQ(d.ssim, 1.0);
 }
 
-TEST(ImageDifferenceAlpha, NoBackdropHidesATransparentPicture) {
+TEST(ImageDifferenceAlpha, NoBackdropHidesATransparentImage) {
   for (const int code : {0, 128, 255}) {
     const auto grey = static_cast<std::uint8_t>(code);
     const ImageDifference d = CompareImages(Filled<std::uint8_t>(12, 12, {grey, grey, grey, 0}),
@@ -229,12 +228,12 @@ TEST(ImageDifferenceAlpha, FlipTakesTheWorseOfBlackAndWhite) {
   EXPECT_NEAR(d.ssim, over_black.ssim, 1e-7);
 }
 
-// ---- Not finite -----------------------------------------------------------------------------------------------------
+// ---- Not finite ----------------------------------------------------------------------------------------------------
 
 TEST(ImageDifferenceNonFinite, SameBitsAreEqual) {
   const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
-  const Image a = Picture(2, 2, 1, Floats{1.0f, nan, inf, -inf});
-  ExpectEqualPictures(a, a);
+  const Image a = MakeImage(2, 2, 1, Floats{1.0f, nan, inf, -inf});
+  ExpectEqualImages(a, a);
   EXPECT_EQ(CompareImages(a, a).non_finite_pixels_a, 3u);
   EXPECT_EQ(CompareImages(a, a).non_finite_pixels_b, 3u);
 }
@@ -280,7 +279,7 @@ TEST(ImageDifferenceNonFinite, HugeAndNegativeLightIsMeasured) {
   EXPECT_EQ(zeros.flip_max, 0.0);
 }
 
-// ---- Errors ---------------------------------------------------------------------------------------------------------
+// ---- Errors --------------------------------------------------------------------------------------------------------
 
 ErrorCode CodeOf(const Image& a, const Image& b, const CompareOptions& options = {}) {
   try {
@@ -318,7 +317,7 @@ TEST(ImageDifferenceErrors, KeepsTheMemoryLimit) {
   }
 }
 
-TEST(ImageDifferenceErrors, RefusesWhatIsNoPictureAndOptionsOutOfRange) {
+TEST(ImageDifferenceErrors, RefusesWhatIsNoImageAndOptionsOutOfRange) {
   const Image a = Filled<std::uint8_t>(3, 3, {1});
   Image cut = a;
   cut.bytes.pop_back();
@@ -327,9 +326,9 @@ TEST(ImageDifferenceErrors, RefusesWhatIsNoPictureAndOptionsOutOfRange) {
   for (const double bad : {0.0, 0.5, 1001.0, std::nan("")}) EXPECT_EQ(CodeOf(a, a, {bad}), ErrorCode::InvalidUsage);
 }
 
-// ---- Thresholds -----------------------------------------------------------------------------------------------------
+// ---- Thresholds ----------------------------------------------------------------------------------------------------
 
-TEST(CompareThresholds, WithoutAnyOnlyEqualPicturesAreWithin) {
+TEST(CompareThresholds, WithoutAnyOnlyEqualImagesAreWithin) {
   const Image a = Filled<std::uint8_t>(4, 4, {9}), b = Filled<std::uint8_t>(4, 4, {10});
   EXPECT_TRUE(BrokenThresholds(CompareImages(a, a), {}).empty());
   EXPECT_EQ(BrokenThresholds(CompareImages(a, b), {}), std::vector<std::string>{"the pictures differ"});

@@ -49,15 +49,15 @@ TEST(Explain, APlainSceneHasLittleToExplain) {
   EXPECT_GT(e.steady_seconds, 0.0);
 }
 
-TEST(Explain, ANormalTextureWithoutAPictureNeedsNoTangents) {
+TEST(Explain, ANormalTextureWithoutAnImageNeedsNoTangents) {
   Scene scene;
   scene.textures.emplace_back();
   Material material;
   material.normal_texture = Ref(0);
   Add(scene, Rectangle(-1, -1, 1, 1), AddMaterial(scene, material));
   const Explanation e = Explain(scene, Settings(32, 32, 1, Perspective(1.0, {0, 0, 3})));
-  EXPECT_NE(std::find(e.first.left_out.begin(), e.first.left_out.end(), "tangents: no normal texture is read"),
-            e.first.left_out.end());
+  EXPECT_NE(std::find(e.first.disabled.begin(), e.first.disabled.end(), "tangents: no normal texture is read"),
+            e.first.disabled.end());
   EXPECT_EQ(e.first.pose_bytes, 0u);
   ASSERT_EQ(e.materials.size(), 1u);
   EXPECT_TRUE(e.materials[0].features.empty());
@@ -66,7 +66,7 @@ TEST(Explain, ANormalTextureWithoutAPictureNeedsNoTangents) {
 TEST(Explain, NamesAndCountsWhatTheFrameUses) {
   Scene scene;
   const auto texture = [&](int width, int height) {
-    return Ref(AddTexture(scene, Picture(width, height, [](int x, int y) {
+    return Ref(AddTexture(scene, MakeImage(width, height, [](int x, int y) {
                             return glm::u8vec4(100 + 30 * (x % 2), 100 + 30 * (y % 2), 200, 255);
                           })));
   };
@@ -121,7 +121,7 @@ TEST(Explain, NamesAndCountsWhatTheFrameUses) {
   // Memory is exact: what goes when a texture is read by nobody any more.
   const auto bytes = [&](std::size_t index) { return std::int64_t(e.textures[index].kept->bytes); };
   EXPECT_EQ(CostOf(e, "base-color-texture")->bytes, bytes(0));
-  // One channel of one picture for occlusion, two for metalness and roughness.
+  // One channel of one image for occlusion, two for metalness and roughness.
   EXPECT_EQ(e.textures[1].kept->channels, 3);
   const std::int64_t of_channel = (bytes(1) - 16) / 3;
   EXPECT_EQ(CostOf(e, "occlusion")->bytes, of_channel);
@@ -138,28 +138,29 @@ TEST(Explain, NamesAndCountsWhatTheFrameUses) {
   }
 }
 
-// Of a texture of emission: the share that nothing reads. The same picture as base colour is read everywhere.
+// Of a texture of emission: the share that nothing reads. The same image as base colour is read everywhere.
 TEST(Explain, TheShareOfEmissionThatIsBlack) {
   for (const bool as_color : {false, true}) {
     Scene scene;
     // A texel of one of 64 x 64 cells, which lights nine.
-    const TextureRef picture = Ref(AddTexture(
-        scene, Picture(256, 256, [](int x, int y) { return glm::u8vec4(x == 128 && y == 128 ? 200 : 0, 0, 0, 255); })));
+    const TextureRef image = Ref(AddTexture(scene, MakeImage(256, 256, [](int x, int y) {
+                                              return glm::u8vec4(x == 128 && y == 128 ? 200 : 0, 0, 0, 255);
+                                            })));
     Material material;
     material.emissive_factor = glm::vec3(1.0f);
-    material.emissive_texture = picture;
-    if (as_color) material.base_color_texture = picture;
+    material.emissive_texture = image;
+    if (as_color) material.base_color_texture = image;
     Add(scene, Rectangle(-1, -1, 1, 1), AddMaterial(scene, material));
     const Explanation e = Explain(scene, Settings(16, 16, 1, Perspective(1.0, {0, 0, 3})));
     ASSERT_EQ(e.textures.size(), 1u);
     ASSERT_TRUE(e.textures[0].kept);
-    EXPECT_DOUBLE_EQ(e.textures[0].kept->dark, as_color ? 0.0 : 1.0 - 9.0 / 4096.0);
+    EXPECT_DOUBLE_EQ(e.textures[0].kept->empty, as_color ? 0.0 : 1.0 - 9.0 / 4096.0);
     const bool said = ToText(e, "scene").find("99 % black") != std::string::npos;
     EXPECT_EQ(said, !as_color);
   }
 }
 
-TEST(Explain, WhatIsLeftOutOnRequestIsSaid) {
+TEST(Explain, WhatIsDisabledOnRequestIsSaid) {
   Scene scene;
   Material material;
   material.emissive_factor = {1, 0, 0};
@@ -177,11 +178,11 @@ TEST(Explain, NamesThePlanesBesidesColour) {
   Add(scene, Rectangle(-1, -1, 1, 1), AddMaterial(scene, Unlit(glm::vec4(1.0f))));
   RenderSettings settings = Settings(16, 16, 1, Perspective(1.0, {0, 0, 3}));
   const std::string what = "planes besides colour";
-  const auto left_out = [&](const Explanation& e) { return ToText(e, "s").find(what) != std::string::npos; };
-  EXPECT_TRUE(left_out(Explain(scene, settings)));
+  const auto disabled = [&](const Explanation& e) { return ToText(e, "s").find(what) != std::string::npos; };
+  EXPECT_TRUE(disabled(Explain(scene, settings)));
   settings.planes = {PlaneKind::Triangle, PlaneKind::Depth};
   const Explanation e = Explain(scene, settings);
-  EXPECT_FALSE(left_out(e));
+  EXPECT_FALSE(disabled(e));
   EXPECT_EQ(e.planes, settings.planes);
   EXPECT_EQ(Costed(e), std::set<std::string>{"planes"});
   EXPECT_EQ(nlohmann::json::parse(ToJson(e, "s"))["planes"], (nlohmann::json{"triangle", "depth"}));
@@ -195,7 +196,7 @@ TEST(Explain, TextAndJsonHaveTheSameNumbers) {
   e.width = 640, e.height = 480, e.samples = 4;
   e.frames = 7, e.steady_seconds = 0.010;
   e.materials.push_back({"a\x1b[2Jb\xff", 0, true, {"occlusion"}, 3, 1234567});
-  e.first.left_out = {"skins: nothing drawn has one"};
+  e.first.disabled = {"skins: nothing drawn has one"};
   e.costs.push_back({"occlusion", "--without occlusion", 9, 0.00125, -0.0005, 0.002, 0.25, -2048});
   const std::string text = ToText(e, "x.glb");
   for (const char* part : {"640x480", "1,234,567", "10.00 ms", "1.25", "12.5 %", "-0.50 to 2.00", "250.00", "-2 KiB",
@@ -213,7 +214,7 @@ TEST(Explain, TextAndJsonHaveTheSameNumbers) {
   EXPECT_EQ(json["steady_frame"]["seconds"], 0.010);
 }
 
-// --- The promise: with everything switched on, the same bits ---------------------------------------------------------
+// --- The promise: with everything switched on, the same bits --------------------------------------------------------
 
 void ExpectSameWithEverything(const facet::Manifest& manifest) {
   ASSERT_FALSE(manifest.entries.empty());

@@ -25,7 +25,7 @@ TEST(HashBands, AreTheDigestOfTheWhole) {
   EXPECT_EQ(plane.Finish(), HashPlane(film, 0));
 
   for (const ChannelType type : {ChannelType::U8, ChannelType::U16, ChannelType::F32}) {
-    Image image = Develop(film, {}, type);
+    Image image = EncodeFilm(film, {}, type);
     Image form = image;
     form.bytes.clear();
     Sha256 pixels = BeginImageHash(form);

@@ -9,7 +9,7 @@
 namespace facet {
 namespace {
 
-TEST(TileGrid, CoversThePicture) {
+TEST(TileGrid, CoversTheImage) {
   for (const int size : {8, 16, 32, 64}) {
     for (const int width : {1, 7, 8, 63, 64, 65, 16384}) {
       const TileGrid grid = MakeTileGrid(width, 2 * width, size);
@@ -61,7 +61,7 @@ TEST(TileBuffers, IndexIsOneToOne) {
 }
 
 TEST(BlockDepth, StaysWithinItsBounds) {
-  TriangleRecord r{};
+  ScreenTriangle r{};
   r.x_fx8[0] = 100, r.y_fx8[0] = 200;
   r.depth_0 = 1.0f, r.depth_dx = 10.0f, r.depth_dy = -3.0f, r.depth_min = 0.5f, r.depth_max = 2.0f;
   const BlockDepth d = MakeBlockDepth(r, 8, 16);

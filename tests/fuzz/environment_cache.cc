@@ -45,7 +45,7 @@ Digest ContentOf(const std::string& file, std::size_t texels) {
 class OnlyKept final : public EnvironmentSource {
  public:
   explicit OnlyKept(std::shared_ptr<const EnvironmentSource> source) : source_(std::move(source)) {}
-  std::shared_ptr<const Image> Picture() const override { throw Error(ErrorCode::InvalidInput, "is not kept"); }
+  std::shared_ptr<const Image> Decode() const override { throw Error(ErrorCode::InvalidInput, "is not kept"); }
   std::shared_ptr<const EnvironmentMap> Find(const EnvironmentOptions& options,
                                              const std::function<void(std::uint64_t)>& admit) const override {
     return source_->Find(options, admit);

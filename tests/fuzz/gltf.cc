@@ -14,7 +14,7 @@
 namespace facet::fuzz {
 namespace {
 
-// --- The container ---------------------------------------------------------------------------------------------------
+// --- The container --------------------------------------------------------------------------------------------------
 
 struct File {
   Json json;
@@ -70,7 +70,7 @@ void MutateBin(File& file, std::size_t max_size, Random& random) {
   file.bin.replace(first, size, reinterpret_cast<const char*>(part.data()), changed);
 }
 
-// --- The work --------------------------------------------------------------------------------------------------------
+// --- The work -------------------------------------------------------------------------------------------------------
 
 void Draw(const Scene& scene, const RenderSettings& settings) {
   Film film;

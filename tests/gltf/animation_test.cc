@@ -73,7 +73,7 @@ TEST(Animation, MorphWeightsHaveOneNumberForEachTarget) {
   EXPECT_EQ(First(loaded).values, (std::vector<float>{0, 1, 51.0f / 255.0f, 0, 1, 0}));
 }
 
-void ExpectLeftOut(const std::string& file) {
+void ExpectIgnored(const std::string& file) {
   const LoadedScene loaded = LoadBytes(file);
   EXPECT_TRUE(loaded.scene.animations.at(0).channels.empty());
   ASSERT_EQ(loaded.report.warnings.size(), 1u);
@@ -81,36 +81,36 @@ void ExpectLeftOut(const std::string& file) {
       << loaded.report.warnings[0];
 }
 
-TEST(Animation, ChannelsOfWrongSizesAndTypesAreLeftOut) {
+TEST(Animation, ChannelsOfWrongSizesAndTypesAreIgnored) {
   {
     FileMaker file;
     file.Attribute("POSITION", file.Triangle());
     const int times = file.Floats({0, 1, 2}, "SCALAR", 1);
-    ExpectLeftOut(Animated(file, times, file.Floats({1, 2, 3, 4, 5, 6}, "VEC3", 3), "translation", ""));
+    ExpectIgnored(Animated(file, times, file.Floats({1, 2, 3, 4, 5, 6}, "VEC3", 3), "translation", ""));
   }
   {
     FileMaker file;
     file.Attribute("POSITION", file.Triangle());
     const int times = file.Floats({0, 1}, "SCALAR", 1);
-    ExpectLeftOut(Animated(file, times, file.Floats({1, 2, 3, 4, 5, 6}, "VEC3", 3), "rotation", ""));
+    ExpectIgnored(Animated(file, times, file.Floats({1, 2, 3, 4, 5, 6}, "VEC3", 3), "rotation", ""));
   }
   {
     FileMaker file;
     file.Attribute("POSITION", file.Triangle());
     const int times = file.Floats({0, 1, 2, 3}, "VEC2", 2);
-    ExpectLeftOut(Animated(file, times, file.Floats({1, 2, 3, 4, 5, 6}, "VEC3", 3), "scale", ""));
+    ExpectIgnored(Animated(file, times, file.Floats({1, 2, 3, 4, 5, 6}, "VEC3", 3), "scale", ""));
   }
   {
     FileMaker file;  // a cubic spline needs three values for each key
     file.Attribute("POSITION", file.Triangle());
     const int times = file.Floats({0, 1}, "SCALAR", 1);
-    ExpectLeftOut(Animated(file, times, file.Floats({1, 2, 3, 4, 5, 6}, "VEC3", 3), "scale", "CUBICSPLINE"));
+    ExpectIgnored(Animated(file, times, file.Floats({1, 2, 3, 4, 5, 6}, "VEC3", 3), "scale", "CUBICSPLINE"));
   }
   {
     FileMaker file;  // of no keys
     file.Attribute("POSITION", file.Triangle());
     const int times = file.Accessor(-1, 5126, 0, "SCALAR");
-    ExpectLeftOut(Animated(file, times, file.Floats({1, 2, 3, 4, 5, 6}, "VEC3", 3), "scale", ""));
+    ExpectIgnored(Animated(file, times, file.Floats({1, 2, 3, 4, 5, 6}, "VEC3", 3), "scale", ""));
   }
 }
 
@@ -136,7 +136,7 @@ TEST(Animation, TimesOfIntegersAndValuesTooManyAreRead) {
   EXPECT_EQ(loaded.report.warnings.size(), 2u);
 }
 
-TEST(Animation, ChannelsThatMoveNothingAreLeftOut) {
+TEST(Animation, ChannelsThatMoveNothingAreIgnored) {
   FileMaker weights;
   weights.Attribute("POSITION", weights.Triangle());
   const int times = weights.Floats({0}, "SCALAR", 1);

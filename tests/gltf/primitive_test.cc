@@ -81,7 +81,7 @@ TEST(Primitive, IndicesThatMakeNoTriangleDrawNone) {
   EXPECT_EQ(loaded.report.warnings.size(), 1u);
 }
 
-TEST(Primitive, VerticesFarFromTheIndicesAreLeftOut) {
+TEST(Primitive, VerticesFarFromTheIndicesAreIgnored) {
   FileMaker file;
   file.Attribute("POSITION",
                  file.Floats({9, 9, 9, 9, 9, 9, 9, 9, 9, 9, 9, 9, 0, 0, 0, 1, 0, 0, 0, 1, 0, 9, 9, 9}, "VEC3", 3));
@@ -93,7 +93,7 @@ TEST(Primitive, VerticesFarFromTheIndicesAreLeftOut) {
   EXPECT_EQ(First(loaded).tex_coords.at(0), (std::vector<glm::vec2>{{0, 1}, {.5f, 0}, {1, 1}}));
 }
 
-TEST(Primitive, AttributesOfTooFewElementsAreLeftOut) {
+TEST(Primitive, AttributesOfTooFewElementsAreIgnored) {
   FileMaker file;
   file.Attribute("POSITION", file.Triangle());
   file.Attribute("TEXCOORD_0", file.Floats({0, 0, 1, 1}, "VEC2", 2));
@@ -104,7 +104,7 @@ TEST(Primitive, AttributesOfTooFewElementsAreLeftOut) {
   EXPECT_EQ(loaded.report.warnings.size(), 2u);
 }
 
-TEST(Primitive, WithoutVerticesOrIndicesItIsLeftOut) {
+TEST(Primitive, WithoutVerticesOrIndicesItIsIgnored) {
   FileMaker vertices;
   vertices.Attribute("POSITION", vertices.Accessor(vertices.View("...."), 5126, 0, "VEC3"));
   FileMaker indices;
@@ -118,7 +118,7 @@ TEST(Primitive, WithoutVerticesOrIndicesItIsLeftOut) {
   }
 }
 
-TEST(Primitive, WithoutPositionsItIsLeftOut) {
+TEST(Primitive, WithoutPositionsItIsIgnored) {
   FileMaker file;
   file.Attribute("TEXCOORD_0", file.Floats({0, 0, 1, 1, 0, 1}, "VEC2", 2));
   const LoadedScene loaded = LoadBytes(file.AsGlb());

@@ -12,7 +12,7 @@ namespace {
 
 namespace lanes = HWY_NAMESPACE;
 
-TEST(CullLights, WhatIsLeftOutGivesNothingInTheBox) {
+TEST(CullLights, CulledLightsGiveNothingInTheBox) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> place(-10.0, 10.0), size(0.0, 3.0), unit(0.0, 1.0), range(0.1, 8.0);
   Light light;
@@ -33,7 +33,7 @@ TEST(CullLights, WhatIsLeftOutGivesNothingInTheBox) {
   lighting.lights = all.data();
   lighting.light_count = static_cast<int>(all.size());
   std::vector<PunctualLight> reaching;
-  std::size_t left_out = 0, wrongly_kept = 0;
+  std::size_t culled = 0, wrongly_kept = 0;
   for (int round = 0; round < 200; ++round) {
     const glm::dvec3 low(place(random), place(random), place(random));
     const glm::dvec3 high = low + glm::dvec3(size(random), size(random), size(random));
@@ -52,13 +52,13 @@ TEST(CullLights, WhatIsLeftOutGivesNothingInTheBox) {
         ++next;
         wrongly_kept += !lit;
       } else {
-        ++left_out;
+        ++culled;
         EXPECT_FALSE(lit);
       }
     }
     EXPECT_EQ(next, reaching.size());  // the order is kept
   }
-  EXPECT_GT(left_out, 40000u);  // of 80,200
+  EXPECT_GT(culled, 40000u);  // of 80,200
   EXPECT_LT(wrongly_kept, 20000u);
 }
 

@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr EnvironmentOptions kOptions{.keep_picture = true, .max_size = 64, .samples = 6};
+constexpr EnvironmentOptions kOptions{.keep_image = true, .max_size = 64, .samples = 6};
 
 std::string Read(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -53,14 +53,14 @@ void ExpectSameMap(const EnvironmentMap& a, const EnvironmentMap& b) {
   }
   EXPECT_EQ(a.irradiance.offset, b.irradiance.offset);
   EXPECT_TRUE(SameBits(a.texels, b.texels));
-  EXPECT_TRUE(SameBits(a.picture, b.picture));
-  EXPECT_EQ(a.picture_width, b.picture_width);
-  EXPECT_EQ(a.picture_height, b.picture_height);
+  EXPECT_TRUE(SameBits(a.image, b.image));
+  EXPECT_EQ(a.image_width, b.image_width);
+  EXPECT_EQ(a.image_height, b.image_height);
   EXPECT_EQ(a.repaired_values, b.repaired_values);
   EXPECT_EQ(a.texel_data, a.texels.data());
-  EXPECT_EQ(a.picture_data != nullptr, b.picture_data != nullptr);
-  if (a.picture_data != nullptr) {
-    EXPECT_EQ(a.picture_data, a.picture.data());
+  EXPECT_EQ(a.image_data != nullptr, b.image_data != nullptr);
+  if (a.image_data != nullptr) {
+    EXPECT_EQ(a.image_data, a.image.data());
   }
 }
 
@@ -74,7 +74,7 @@ class EnvironmentCache : public testing::Test {
   }
   std::shared_ptr<const EnvironmentMap> Keep(const EnvironmentOptions& options = kOptions) const {
     const auto source = Open();
-    auto map = PrefilterEnvironment(*source->Picture(), options);
+    auto map = PrefilterEnvironment(*source->Decode(), options);
     EXPECT_EQ(source->Keep(options, *map), "");
     return map;
   }
@@ -90,9 +90,9 @@ class EnvironmentCache : public testing::Test {
 };
 
 TEST_F(EnvironmentCache, GivesBackTheSameBits) {
-  for (const bool keep_picture : {false, true}) {
+  for (const bool keep_image : {false, true}) {
     for (const int max_size : {64, 1024}) {
-      const EnvironmentOptions options{.keep_picture = keep_picture, .max_size = max_size};
+      const EnvironmentOptions options{.keep_image = keep_image, .max_size = max_size};
       EXPECT_EQ(Find(options), nullptr);
       const auto kept = Keep(options);
       const auto found = Find(options);
@@ -114,9 +114,9 @@ TEST_F(EnvironmentCache, RemembersRepairs) {
 
 TEST_F(EnvironmentCache, EveryOptionAndEveryByteOfTheFileCounts) {
   Keep();
-  for (EnvironmentOptions other : {EnvironmentOptions{.keep_picture = false, .max_size = 64, .samples = 6},
-                                   EnvironmentOptions{.keep_picture = true, .max_size = 128, .samples = 6},
-                                   EnvironmentOptions{.keep_picture = true, .max_size = 64, .samples = 7},
+  for (EnvironmentOptions other : {EnvironmentOptions{.keep_image = false, .max_size = 64, .samples = 6},
+                                   EnvironmentOptions{.keep_image = true, .max_size = 128, .samples = 6},
+                                   EnvironmentOptions{.keep_image = true, .max_size = 64, .samples = 7},
                                    EnvironmentOptions{true, 64, 6, IrradianceMethod::SphericalHarmonics}}) {
     EXPECT_EQ(Find(other), nullptr);
     const auto kept = Keep(other), found = Find(other);
@@ -134,7 +134,7 @@ TEST_F(EnvironmentCache, EveryOptionAndEveryByteOfTheFileCounts) {
 TEST_F(EnvironmentCache, DoesNotDecode) {
   const auto map = Keep();
   Write(sky_, "no picture");
-  EXPECT_THROW(Open()->Picture(), Error);
+  EXPECT_THROW(Open()->Decode(), Error);
   ASSERT_EQ(Open()->Keep(kOptions, *map), "");
   ExpectSameMap(*Find(), *map);
 }
@@ -143,7 +143,7 @@ TEST_F(EnvironmentCache, DoesNotDecode) {
 TEST_F(EnvironmentCache, FilesThatChangeMeanwhileAreRefused) {
   const auto source = Open();
   Write(sky_, SkyFile(101));
-  EXPECT_EQ(CodeOf([&] { source->Picture(); }), ErrorCode::InvalidInput);
+  EXPECT_EQ(CodeOf([&] { source->Decode(); }), ErrorCode::InvalidInput);
 }
 
 TEST_F(EnvironmentCache, PipesAreReadOnce) {
@@ -156,7 +156,7 @@ TEST_F(EnvironmentCache, PipesAreReadOnce) {
   const auto found = source->Find(kOptions, [](std::uint64_t) {});
   ASSERT_NE(found, nullptr);
   ExpectSameMap(*found, *map);
-  EXPECT_EQ(source->Picture()->width, 16);
+  EXPECT_EQ(source->Decode()->width, 16);
 }
 
 TEST_F(EnvironmentCache, DamageIsFoundAndMended) {
@@ -164,7 +164,7 @@ TEST_F(EnvironmentCache, DamageIsFoundAndMended) {
   const fs::path entry = Entries().at(0);
   const std::string whole = Read(entry);
   const std::size_t header = 112;
-  ASSERT_EQ(whole.size(), header + 4 * (map->texels.size() + map->picture.size()));
+  ASSERT_EQ(whole.size(), header + 4 * (map->texels.size() + map->image.size()));
   const auto expect_found_out = [&](const std::string& bytes, const std::string& what) {
     Write(entry, bytes);
     EXPECT_EQ(Find(), nullptr) << what;
@@ -192,23 +192,23 @@ TEST_F(EnvironmentCache, DamageIsFoundAndMended) {
   ExpectSameMap(*Find(), *map);
 }
 
-// The digest keeps nobody from writing an entry: what no picture can become is not taken.
+// The digest keeps nobody from writing an entry: what no image can become is not taken.
 TEST_F(EnvironmentCache, WhatIsNoLightIsNotTaken) {
-  const auto find_with = [&](float number, bool in_picture, std::size_t at) {
+  const auto find_with = [&](float number, bool in_image, std::size_t at) {
     EnvironmentMap map;
     LayOutLevels(64, map);
-    map.picture_width = 16, map.picture_height = 8;
-    map.picture.assign(16 * 8 * 4, 1.0f);
-    PageVector<float>& floats = in_picture ? map.picture : map.texels;
+    map.image_width = 16, map.image_height = 8;
+    map.image.assign(16 * 8 * 4, 1.0f);
+    PageVector<float>& floats = in_image ? map.image : map.texels;
     floats[at < floats.size() ? at : floats.size() - 1] = number;
     EXPECT_EQ(Open()->Keep(kOptions, map), "");
     return Find();
   };
-  for (const bool in_picture : {false, true}) {
+  for (const bool in_image : {false, true}) {
     for (const std::size_t at : {std::size_t{0}, std::size_t{5}, ~std::size_t{0}}) {
-      for (const float fine : {0.0f, -0.0f, 1.0f, kMaxRadiance}) EXPECT_NE(find_with(fine, in_picture, at), nullptr);
+      for (const float fine : {0.0f, -0.0f, 1.0f, kMaxRadiance}) EXPECT_NE(find_with(fine, in_image, at), nullptr);
       for (const float bad : {NAN, INFINITY, -INFINITY, -1.0f, -1e-45f, 3e38f}) {
-        EXPECT_EQ(find_with(bad, in_picture, at), nullptr) << bad << " at " << at;
+        EXPECT_EQ(find_with(bad, in_image, at), nullptr) << bad << " at " << at;
       }
     }
   }
@@ -219,7 +219,7 @@ TEST_F(EnvironmentCache, AnotherEntryInItsPlaceIsNotTaken) {
   const fs::path first = Entries().at(0);
   const std::string whole = Read(first);
   fs::remove(first);
-  const EnvironmentOptions other{.keep_picture = true, .max_size = 64, .samples = 7};
+  const EnvironmentOptions other{.keep_image = true, .max_size = 64, .samples = 7};
   Keep(other);
   Write(Entries().at(0), whole);
   EXPECT_EQ(Find(other), nullptr);
@@ -245,7 +245,7 @@ TEST_F(EnvironmentCache, WhatIsNoFileIsNotReadOrReplaced) {
 }
 
 TEST_F(EnvironmentCache, FoldersThatCannotBeMadeAreAWarning) {
-  const auto map = PrefilterEnvironment(*Open()->Picture(), kOptions);
+  const auto map = PrefilterEnvironment(*Open()->Decode(), kOptions);
   const auto source = OpenEnvironment(sky_, sky_);
   EXPECT_EQ(source->Find(kOptions, [](std::uint64_t) {}), nullptr);
   EXPECT_NE(source->Keep(kOptions, *map).find("the prepared environment is not kept: " + sky_.string()),
@@ -262,7 +262,7 @@ TEST_F(EnvironmentCache, AsksBeforeItTakesMemory) {
     throw Error(ErrorCode::OutOfMemory, "no");
   };
   EXPECT_EQ(CodeOf([&] { Open()->Find(kOptions, refuse); }), ErrorCode::OutOfMemory);
-  EXPECT_EQ(asked, 4 * (map->texels.size() + map->picture.size()));
+  EXPECT_EQ(asked, 4 * (map->texels.size() + map->image.size()));
 }
 
 // Nobody ever sees a part of an entry, however many write it.
@@ -290,9 +290,9 @@ TEST_F(EnvironmentCache, WritersAndReadersAtOnce) {
 TEST(EnvironmentArithmetic, IsTheOneOfItsNumber) {
   Sha256 hash;
   for (const IrradianceMethod method : {IrradianceMethod::Convolution, IrradianceMethod::SphericalHarmonics}) {
-    const auto map = PrefilterEnvironment(StudioPicture(1024, 512), {true, 1024, 24, method});
+    const auto map = PrefilterEnvironment(StudioImage(1024, 512), {true, 1024, 24, method});
     hash.Add(std::as_bytes(std::span(map->texels)));
-    hash.Add(std::as_bytes(std::span(map->picture)));
+    hash.Add(std::as_bytes(std::span(map->image)));
   }
   EXPECT_EQ(std::tuple(kEnvironmentArithmetic, ToHex(hash.Finish())),
             std::tuple(1u, std::string("2328cb95a54adb83d5c859907f8e2d0609cea5b850a9fc1e923b49d7c62a3112")))

@@ -90,7 +90,7 @@ TEST(Environment, CentreIsPlusXAndThreeQuartersIsPlusZ) {
                {0.5, 0.25, {0.70710678, 0.70710678, 0}}};
   for (const auto& c : cases) {
     for (bool keep : {false, true}) {
-      const auto map = PrefilterEnvironment(lit_at(c.u, c.v), {.keep_picture = keep, .max_size = 512});
+      const auto map = PrefilterEnvironment(lit_at(c.u, c.v), {.keep_image = keep, .max_size = 512});
       EXPECT_NEAR(lanes::SharpRadiance(*map, c.direction).x, 1.0, 1e-6) << c.u << " " << c.v;
       EXPECT_NEAR(lanes::SharpRadiance(*map, -c.direction).x, 0.0, 1e-6) << c.u << " " << c.v;
     }
@@ -108,10 +108,10 @@ TEST(Environment, RotationIsCounterClockwiseSeenFromAbove) {
   EXPECT_GT(lighting.Irradiance({0, 0, -1}).x, 10.0 * lighting.Irradiance({0.8, 0, 0.6}).x);
 }
 
-// The map is continuous over its folds and true to the picture.
-TEST(Environment, LevelZeroIsThePicture) {
+// The map is continuous over its folds and true to the image.
+TEST(Environment, LevelZeroIsTheImage) {
   const auto radiance = [](Vec3<double> d) { return 1.0 + 0.5 * d.x - 0.3 * d.y + 0.2 * d.z + 0.4 * d.x * d.z; };
-  const auto map = PrefilterEnvironment(Paint(512, 256, radiance), {.keep_picture = true, .max_size = 512});
+  const auto map = PrefilterEnvironment(Paint(512, 256, radiance), {.keep_image = true, .max_size = 512});
   for (Vec3<double> d : SomeDirections(3000)) {
     EXPECT_NEAR(lanes::PrefilteredRadiance(*map, d, 0.0).x, radiance(d), 0.002);
     EXPECT_NEAR(lanes::SharpRadiance(*map, d).x, radiance(d), 0.004);  // a pole's row stands for half a pixel around it
@@ -248,7 +248,7 @@ TEST(Environment, HostilePixelsAreRepaired) {
   const float inf = std::numeric_limits<float>::infinity();
   const float bad[] = {std::nanf(""), inf, -inf, -1.0f, 3.4e38f};
   for (int i = 0; i < 5; ++i) image.As<float>()[300 * (i + 1)] = bad[i];
-  const auto map = PrefilterEnvironment(image, {.keep_picture = true, .max_size = 512});
+  const auto map = PrefilterEnvironment(image, {.keep_image = true, .max_size = 512});
   EXPECT_EQ(map->repaired_values, 5u);
   for (float texel : map->texels) ASSERT_TRUE(std::isfinite(texel) && texel >= 0.0f);
 }
@@ -257,7 +257,7 @@ TEST(Environment, AnySizeAndType) {
   for (auto [width, height] : {std::pair{1, 1}, {2, 1}, {3, 5}, {7, 300}, {2048, 16}}) {
     Image image{width, height, 4, ChannelType::U8, Encoding::Srgb, {}};
     image.bytes.assign(image.PixelCount() * 4, std::byte(255));
-    const auto map = PrefilterEnvironment(image, {.keep_picture = true, .max_size = 1024});
+    const auto map = PrefilterEnvironment(image, {.keep_image = true, .max_size = 1024});
     for (Vec3<double> d : SomeDirections(50)) {
       EXPECT_NEAR(lanes::SharpRadiance(*map, d).x, 1.0, 1e-5);
       EXPECT_NEAR(lanes::PrefilteredRadiance(*map, d, 0.3).y, 1.0, 1e-5);
@@ -266,7 +266,7 @@ TEST(Environment, AnySizeAndType) {
   EXPECT_THROW(PrefilterEnvironment(Image{}), Error);
 }
 
-// Before anything is read: such a picture has more pixels than 32 bits count numbers of.
+// Before anything is read: such an image has more pixels than 32 bits count numbers of.
 TEST(Environment, PicturesBeyondTheLimitsAreRefused) {
   for (const auto& [width, height] :
        {std::pair(32768, 16384), {32768, 32768}, {32769, 1}, {1, 32769}, {1 << 30, 1 << 30}}) {
@@ -299,12 +299,12 @@ TEST(Environment, SameBitsOnEveryInstructionSetAndThreadCount) {
 }
 
 TEST(Studio, IsPositiveAndOfMeanOne) {
-  const Image picture = StudioPicture(256, 128);
+  const Image image = StudioImage(256, 128);
   double sum = 0.0, weight = 0.0;
   for (int y = 0; y < 128; ++y) {
     const double solid_angle = std::sin(kPi * (y + 0.5) / 128);
     for (int x = 0; x < 256; ++x) {
-      const float value = picture.As<float>()[(std::size_t(y) * 256 + std::size_t(x)) * 3];
+      const float value = image.As<float>()[(std::size_t(y) * 256 + std::size_t(x)) * 3];
       ASSERT_TRUE(std::isfinite(value) && value > 0.05f && value < 50.0f);
       sum += solid_angle * value;
       weight += solid_angle;
@@ -312,11 +312,11 @@ TEST(Studio, IsPositiveAndOfMeanOne) {
   }
   EXPECT_NEAR(sum / weight, 0.65, 1e-6);
   EXPECT_EQ(StudioEnvironment().get(), StudioEnvironment().get());
-  EXPECT_EQ(StudioEnvironment()->picture_data, nullptr);
-  EXPECT_NE(StudioEnvironment({.keep_picture = true})->picture_data, nullptr);
-  // The build's table holds what preparing the picture gives, bit for bit.
+  EXPECT_EQ(StudioEnvironment()->image_data, nullptr);
+  EXPECT_NE(StudioEnvironment({.keep_image = true})->image_data, nullptr);
+  // The build's table holds what preparing the image gives, bit for bit.
   const auto map = StudioEnvironment();
-  const auto made = PrefilterEnvironment(StudioPicture(kStudioWidth, kStudioHeight), {.max_size = kStudioMaxSize});
+  const auto made = PrefilterEnvironment(StudioImage(kStudioWidth, kStudioHeight), {.max_size = kStudioMaxSize});
   ASSERT_EQ(map->texels.size(), made->texels.size());
   for (std::size_t i = 0; i < made->texels.size(); ++i) {
     if (i % 4 < 3) { ASSERT_EQ(std::bit_cast<int>(map->texels[i]), std::bit_cast<int>(made->texels[i])) << i; }

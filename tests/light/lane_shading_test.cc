@@ -11,10 +11,10 @@
 #define FACET_TESTS_LANE_SHADING_ONCE
 namespace facet {
 
-constexpr int kShadingNumbers = 18;  // inputs of a fragment
+constexpr int kShadingComponents = 18;  // inputs of a fragment
 struct ShadingTask {
   const LightingData* lighting;
-  const float* in;  // kShadingNumbers arrays of `count`
+  const float* in;  // kShadingComponents arrays of `count`
   int count;        // a multiple of 64
   bool lanes;       // else float by float
   float* out;       // 3 arrays of `count`
@@ -79,7 +79,7 @@ FACET_EXPORT(ShadeAll);
 std::vector<float> RandomFragments(int count) {
   std::mt19937 random(5);
   const auto uniform = [&] { return float(random() >> 8) / 16777216.0f; };
-  std::vector<float> in(std::size_t(kShadingNumbers) * std::size_t(count));
+  std::vector<float> in(std::size_t(kShadingComponents) * std::size_t(count));
   for (int i = 0; i < count; ++i) {
     const auto at = [&](int k) -> float& { return in[std::size_t(k) * count + i]; };
     const auto unit = [&](int k) {
@@ -106,7 +106,7 @@ TEST(LaneShading, HasTheBitsOfFloatsOnEveryInstructionSet) {
   lights[2].type = LightType::Spot;
   lights[2].spot_scale = 4.0f;
   lights[2].spot_offset = -2.0f;
-  for (PunctualLight& light : lights) light.radiant[0] = light.radiant[1] = light.radiant[2] = 3.0f;
+  for (PunctualLight& light : lights) light.intensity[0] = light.intensity[1] = light.intensity[2] = 3.0f;
   const auto studio = StudioEnvironment();
   const LightingData lighting = MakeLightingData(lights, studio.get(), 1.0, 1.5);
   constexpr int kCount = 4096;

@@ -93,7 +93,7 @@ TEST(PunctualLights, ZeroDistanceIsFinite) {
   }
 }
 
-TEST(PunctualLights, WhatCannotShineIsLeftOut) {
+TEST(PunctualLights, LightsThatCannotShineAreCulled) {
   const Light black = MakeLight(LightType::Point, 0.0f);
   Light short_range = MakeLight(LightType::Point, 1.0f);
   short_range.range = 0.0f;

@@ -35,7 +35,7 @@ TEST(MaterialFeatures, EverythingIsSeen) {
                                         kEmission | kDiffuseLobe);
 }
 
-TEST(MaterialFeatures, WhatCannotShowIsLeftOut) {
+TEST(MaterialFeatures, WhatCannotShowIsDisabled) {
   Material m = Textured();
   m.emissive_strength = 0.0f;
   EXPECT_EQ(FeaturesOf(m) & (kEmission | BitOf(Slot::Emissive)), 0u);

@@ -38,7 +38,7 @@ MaterialInputs<T> White(T metallic, T perceptual_roughness) {
   return in;
 }
 
-LightingData DarkLighting() { return MakeLightingData({}, nullptr); }
+LightingData NoLighting() { return MakeLightingData({}, nullptr); }
 
 // Albedo in direction v: integral over half vectors (uniform in log tan, so that every lobe is resolved) of
 // BRDF n_dot_l 4 v_dot_h dh.
@@ -69,7 +69,7 @@ double Albedo(const MaterialInputs<double>& in, double n_dot_v, const LightingDa
 }
 
 TEST(WhiteFurnace, DirectionalLightsOfEveryDirection) {
-  const LightingData data = DarkLighting();
+  const LightingData data = NoLighting();
   double least = 2.0, most = 0.0;
   for (double roughness : Roughnesses()) {
     for (double metallic : kMetallic) {
@@ -88,7 +88,7 @@ TEST(WhiteFurnace, DirectionalLightsOfEveryDirection) {
 
 // A coloured surface reflects less than a white one, and not much less than its colour says.
 TEST(Furnace, ColoursNeverGain) {
-  const LightingData data = DarkLighting();
+  const LightingData data = NoLighting();
   for (double base : {0.0, 0.18, 0.9}) {
     for (double metallic : {0.0, 0.5, 1.0}) {
       MaterialInputs<double> in = White(metallic, 0.4);
@@ -100,7 +100,7 @@ TEST(Furnace, ColoursNeverGain) {
   }
 }
 
-Image ConstantPicture(float r, float g, float b) {
+Image ConstantImage(float r, float g, float b) {
   Image image{64, 32, 3, ChannelType::F32, Encoding::Linear, {}};
   image.bytes.resize(image.PixelCount() * 3 * sizeof(float));
   for (std::size_t i = 0; i < image.PixelCount(); ++i) {
@@ -112,7 +112,7 @@ Image ConstantPicture(float r, float g, float b) {
 }
 
 TEST(WhiteFurnace, ConstantEnvironment) {
-  const auto environment = PrefilterEnvironment(ConstantPicture(1.0f, 2.0f, 0.5f));
+  const auto environment = PrefilterEnvironment(ConstantImage(1.0f, 2.0f, 0.5f));
   const LightingData data = MakeLightingData({}, environment.get(), 0.7, 3.0);
   const LightingView<double> lighting(data);
   for (double roughness : Roughnesses()) {
@@ -131,7 +131,7 @@ TEST(WhiteFurnace, ConstantEnvironment) {
 }
 
 TEST(Closure, IsReciprocal) {
-  const LightingData data = DarkLighting();
+  const LightingData data = NoLighting();
   const LightingView<double> lighting(data);
   std::mt19937 random(7);
   const auto uniform = [&] { return double(random()) / 4294967296.0; };
@@ -152,10 +152,10 @@ TEST(Closure, IsReciprocal) {
 }
 
 TEST(Closure, OcclusionDimsTheEnvironmentAlone) {
-  const auto environment = PrefilterEnvironment(ConstantPicture(1.0f, 1.0f, 1.0f));
+  const auto environment = PrefilterEnvironment(ConstantImage(1.0f, 1.0f, 1.0f));
   std::vector<PunctualLight> lights(1);
   lights[0].type = LightType::Directional;
-  lights[0].radiant[1] = 2.0f;
+  lights[0].intensity[1] = 2.0f;
   const Vec3<double> view = {0.6, 0.0, 0.8};
   MaterialInputs<double> in = White(0.0, 0.5);
   in.emissive = {0.25, 0.5, 0.75};
@@ -173,7 +173,7 @@ TEST(Closure, OcclusionDimsTheEnvironmentAlone) {
 }
 
 TEST(Closure, IsDarkBelowTheHorizonAndFiniteEverywhere) {
-  const LightingData data = DarkLighting();
+  const LightingData data = NoLighting();
   const LightingView<float> lighting(data);
   for (float roughness : {0.0f, 0.045f, 0.5f, 1.0f}) {
     for (float metallic : {0.0f, 1.0f}) {

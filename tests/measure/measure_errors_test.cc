@@ -83,7 +83,7 @@ TEST(MeasuredErrors, SayWhatTheyMeasured) {
     EXPECT_LT(point.error.relative_rmse, 1.0) << "the renderer draws what the reference draws";
     EXPECT_EQ(point.error.standard_error, 0.0) << "of all pixels";
     EXPECT_GT(point.error.flip, 0.0);
-    EXPECT_FALSE(point.picture_png.empty());
+    EXPECT_FALSE(point.image_png.empty());
     EXPECT_FALSE(point.error_map_png.empty());
     const bool beaten = std::any_of(report.points.begin(), report.points.end(), [&](const ReportPoint& other) {
       return other.error.relative_rmse < point.error.relative_rmse && other.seconds < point.seconds;
@@ -110,7 +110,7 @@ TEST(MeasuredErrors, SayWhatTheyMeasured) {
   EXPECT_LT(report.rounding->relative_rmse, 1e-4);
 }
 
-// However slow the machine is: what there is no time for is left out, of the reference's picture too.
+// However slow the machine is: what there is no time for is left out, of the reference's image too.
 TEST(MeasuredErrors, HaveAPointInAnyBudget) {
   for (const double tick : {0.3, 3.0, 1000.0}) {
     TestClock clock(tick);
@@ -131,8 +131,8 @@ TEST(MeasuredErrors, HaveAPointInAnyBudget) {
   }
 }
 
-// The reference takes half of the budget, and no more of the picture than fits in there.
-TEST(MeasuredErrors, OfAPartOfThePictureAreNearThoseOfAllOfIt) {
+// The reference takes half of the budget, and no more of the image than fits in there.
+TEST(MeasuredErrors, OfAPartOfTheImageAreNearThoseOfAllOfIt) {
   const auto then_coarse = [](double fine) { return [=](double now) { return now < 1001.5 ? fine : 0.5; }; };
   TestClock unhurried(then_coarse(0.008)), hurried(then_coarse(0.02));
   const ErrorReport whole = Measure(unhurried, "200x200", 3.0), part = Measure(hurried, "200x200", 3.0);
@@ -181,7 +181,7 @@ TEST(MeasuredErrors, SayEarlyWhatNoSettingsReach) {
 
 class MeasuredErrorsOfAScene : public Scratch {
  protected:
-  // An unlit square that fills the picture, with a chequered texture of many squares a pixel: its mip levels are grey,
+  // An unlit square that fills the image, with a chequered texture of many squares a pixel: its mip levels are grey,
   // as is the truth, while a reference of few samples is noisy.
   std::filesystem::path Board() const {
     constexpr std::uint8_t kBlack = 0, kWhite = 255;

@@ -121,7 +121,7 @@ TEST(FlipOfAReport, IsThatOfCompareImagesWhereTheReferenceIsWhole) {
   for (const bool opaque : {false, true}) {
     DisplaySettings display;
     if (opaque) display.background_srgb = glm::vec3(0.2f);
-    const Image a = Develop(ToFilm(reference), display), b = Develop(OffFilm(), display);
+    const Image a = EncodeFilm(ToFilm(reference), display), b = EncodeFilm(OffFilm(), display);
     const FlipJudge judge(reference, a);
     const FlipJudge::Verdict verdict = judge.Judge(b);
     const ImageDifference difference = CompareImages(a, b);
@@ -137,7 +137,7 @@ TEST(FlipOfAReport, IsThatOfCompareImagesWhereTheReferenceIsWhole) {
 
 // A few per cent off, for the blocks' borders.
 TEST(FlipOfAReport, OfPartsIsNearlyThatOfTheWhole) {
-  const Image reference = Develop(ToFilm(WholeReference()), {}), test = Develop(OffFilm(), {});
+  const Image reference = EncodeFilm(ToFilm(WholeReference()), {}), test = EncodeFilm(OffFilm(), {});
   const double whole = CompareImages(reference, test).flip_mean;
   const ReferenceFilm all_blocks = PartOfIt(0, SpreadBlocks(kWidth, kHeight, 0).size());
   EXPECT_NEAR(FlipJudge(all_blocks, reference).Judge(test).mean, whole, 0.06 * whole);
@@ -145,9 +145,9 @@ TEST(FlipOfAReport, OfPartsIsNearlyThatOfTheWhole) {
 
 TEST(FlipOfAReport, IsTransparentWhereNothingIsKnown) {
   ReferenceFilm reference = PartOfIt(0, 20);
-  const Image developed = Develop(ToFilm(WholeReference()), {});
-  const FlipJudge judge(reference, developed);
-  const FlipJudge::Verdict verdict = judge.Judge(Develop(OffFilm(), {}));
+  const Image encoded = EncodeFilm(ToFilm(WholeReference()), {});
+  const FlipJudge judge(reference, encoded);
+  const FlipJudge::Verdict verdict = judge.Judge(EncodeFilm(OffFilm(), {}));
   const Image map = judge.Map(verdict, kWidth);
   ASSERT_EQ(map.channels, 4);
   std::vector<int> alpha(map.PixelCount(), 0);

@@ -199,7 +199,7 @@ TEST(DiagramSvg, ShowsLevelsAndNamesThoseFarBelow) {
 
 TEST(ErrorReportPage, IsWellFormedAndNeedsNothingElse) {
   ErrorReport report = SampleErrorReport();
-  report.points[0].picture_png = Bytes("one");
+  report.points[0].image_png = Bytes("one");
   report.points[3].error_map_png = Bytes("two");
   const std::string html = ToHtml(report);
   for (const char* outside : {"http", "//", "<link", "@import", "<script", "url("})
@@ -222,7 +222,7 @@ TEST(ErrorReportPage, EscapesWhatItIsGiven) {
   report.settings = {{evil, evil}};
   report.reference.notes = {evil};
   report.points[1].changed = {{evil, evil}};
-  report.points[1].picture_png = Bytes("one");
+  report.points[1].image_png = Bytes("one");
   report.costs[0].option = report.costs[0].used = report.costs[0].cheapest = report.costs[0].most_exact = evil;
   const std::string html = ToHtml(report);
   EXPECT_FALSE(Contains(html, "<script"));
@@ -268,7 +268,7 @@ TEST(ErrorReportPage, SaysWhatCannotBeDrawnAndStaysWhole) {
   ExpectXml(ToHtml(ErrorReport()), "assert len(list(t.iter(\"svg\"))) == 3");  // no points at all
 }
 
-TEST(ErrorReportPage, SaysHowMuchOfThePictureWasCompared) {
+TEST(ErrorReportPage, SaysHowMuchOfTheImageWasCompared) {
   ErrorReport report = SampleErrorReport();
   EXPECT_FALSE(Contains(ToHtml(report), "There was time for"));
   EXPECT_FALSE(Contains(ToHtml(report), " ± "));

@@ -15,7 +15,7 @@ struct Shape {
 };
 
 // Seen straight on; nothing overlaps.
-void ExpectShape(const Picture& picture, const Shape& shape) {
+void ExpectShape(const Image& image, const Shape& shape) {
   int seen = 0;
   for (int y = 0; y < kSize; ++y) {
     for (int x = 0; x < kSize; ++x) {
@@ -32,9 +32,9 @@ void ExpectShape(const Picture& picture, const Shape& shape) {
         for (std::size_t k = 0; k < 3; ++k) color = color + shape.colors[i + k] * hit->weight[k];
       }
       if (unsure) continue;
-      ASSERT_EQ(picture.Alpha(x, y), met ? 1.0 : 0.0) << x << ", " << y;
+      ASSERT_EQ(image.Alpha(x, y), met ? 1.0 : 0.0) << x << ", " << y;
       if (!met) continue;
-      ExpectColor(picture, x, y, color, 3e-5, 1.0);
+      ExpectColor(image, x, y, color, 3e-5, 1.0);
       ++seen;
     }
   }
@@ -116,7 +116,7 @@ TEST(Skin, VerticesFollowTheirJoints) {
   ExpectShape(Draw(file, kSize, kSize), expected);
 }
 
-// --- Animation (appendix C) ------------------------------------------------------------------------------------------
+// --- Animation (appendix C) -----------------------------------------------------------------------------------------
 
 // The triangle under a node that an animation moves, at a moment.
 void ExpectMoved(const std::string& path, const std::string& interpolation, const std::string& type,

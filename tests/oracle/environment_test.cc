@@ -9,7 +9,7 @@
 namespace oracle {
 namespace {
 
-constexpr int kWidth = 64, kHeight = 32;  // of environments' pictures
+constexpr int kWidth = 64, kHeight = 32;  // of environments' images
 
 std::shared_ptr<const facet::Image> Environment(const std::function<Vec(int x, int y)>& radiance) {
   auto image = std::make_shared<facet::Image>();
@@ -88,8 +88,8 @@ TEST(Environment, OcclusionDimsItAlone) {
   AddStraightCamera(file, 1.0);
   const Vec up = {0, 0, 1}, toward = -Rotated({0, 0, -1}, {0, 1, 0}, 0.4);
   const double occlusion = 1.0 + 0.75 * (64 / 255.0 - 1.0);
-  const Picture picture = Draw(file, 2, 2, LitBy(Environment([](int, int) { return Vec{1, 1, 1}; })));
-  ExpectColor(picture, 0, 0,
+  const Image image = Draw(file, 2, 2, LitBy(Environment([](int, int) { return Vec{1, 1, 1}; })));
+  ExpectColor(image, 0, 0,
               Vec{0.2, 0, 0} + Reflect(surface, up, up, toward) * 1.5 + ReflectAll(surface, up, up) * occlusion,
               kLitTolerance);
 }
@@ -97,10 +97,10 @@ TEST(Environment, OcclusionDimsItAlone) {
 // docs/conventions.md: u = 1/2 + atan2(z, x) / 2 pi, v = acos(y) / pi; a rotation turns it counter-clockwise seen from
 // above. The background shows it.
 TEST(Environment, LiesAsTheConventionsSay) {
-  // A picture whose red is its column and whose green is its row.
+  // An image whose red is its column and whose green is its row.
   const auto environment = Environment([](int x, int y) { return Vec{(x + 0.5) / kWidth, (y + 0.5) / kHeight, 0.25}; });
   for (const double rotation : {0.0, 0.7}) {
-    // Nothing of the picture's left and right edge, where red jumps, nor of the poles, is looked at.
+    // Nothing of the image's left and right edge, where red jumps, nor of the poles, is looked at.
     for (const double around : {-1.2, 0.3, 1.1}) {
       for (const double up : {-0.5, 0.4}) {
         SCOPED_TRACE(Number(rotation) + ", " + Number(around) + ", " + Number(up));
@@ -111,16 +111,16 @@ TEST(Environment, LiesAsTheConventionsSay) {
         file.Add("nodes", R"({"camera":0,"rotation":)" + Numbers(Turn({1, 0, 0}, up)) + "}");
         file.Roots({0});
         const Vec seen = {std::cos(up) * std::cos(around), std::sin(up), -std::cos(up) * std::sin(around)};
-        const Vec in_picture = Rotated(seen, {0, 1, 0}, -rotation);
-        const double u = 0.5 + std::atan2(in_picture.z, in_picture.x) / (2.0 * kPi), v = std::acos(in_picture.y) / kPi;
+        const Vec in_image = Rotated(seen, {0, 1, 0}, -rotation);
+        const double u = 0.5 + std::atan2(in_image.z, in_image.x) / (2.0 * kPi), v = std::acos(in_image.y) / kPi;
         const auto lit = LitBy(environment);
-        const Picture picture = Draw(file, 1, 1, [&](facet::RenderSettings& settings) {
+        const Image image = Draw(file, 1, 1, [&](facet::RenderSettings& settings) {
           lit(settings);
           settings.background = facet::Background::Environment;
           settings.environment.rotation = rotation;
           settings.environment.intensity = 2.0;
         });
-        ExpectColor(picture, 0, 0, Vec{u, v, 0.25} * 2.0, 1e-4, 1.0);
+        ExpectColor(image, 0, 0, Vec{u, v, 0.25} * 2.0, 1e-4, 1.0);
       }
     }
   }

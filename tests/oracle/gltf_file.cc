@@ -37,7 +37,7 @@ std::string Chunk(const std::string& type, const std::string& data) {
   return Big32(std::uint32_t(data.size())) + type + data + Big32(~crc);
 }
 
-// One stored block (RFC 1950, RFC 1951): pictures here have less than 64 KiB.
+// One stored block (RFC 1950, RFC 1951): images here have less than 64 KiB.
 std::string Png(const Texels& texels) {
   std::string rows;
   for (int y = 0; y < texels.height; ++y) {
@@ -163,7 +163,7 @@ std::string GltfFile::Text() const {
   return "{" + Joined(members) + "}";
 }
 
-Picture Draw(const GltfFile& file, int width, int height, const std::function<void(facet::RenderSettings&)>& change) {
+Image Draw(const GltfFile& file, int width, int height, const std::function<void(facet::RenderSettings&)>& change) {
   const auto* test = testing::UnitTest::GetInstance()->current_test_info();
   const std::filesystem::path path = std::filesystem::path(testing::TempDir()) /
                                      (std::string("oracle_") + test->test_suite_name() + "_" + test->name() + ".gltf");
@@ -181,8 +181,8 @@ Picture Draw(const GltfFile& file, int width, int height, const std::function<vo
   return {facet::Render(loaded.scene, settings)};
 }
 
-void ExpectColor(const Picture& picture, int x, int y, Vec expected, double tolerance, double floor) {
-  const Vec got = picture.Color(x, y);
+void ExpectColor(const Image& image, int x, int y, Vec expected, double tolerance, double floor) {
+  const Vec got = image.Color(x, y);
   const double want[3] = {expected.x, expected.y, expected.z}, is[3] = {got.x, got.y, got.z};
   for (int c = 0; c < 3; ++c) {
     EXPECT_NEAR(is[c], want[c], tolerance * std::fmax(std::fabs(want[c]), floor))

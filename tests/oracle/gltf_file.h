@@ -1,4 +1,4 @@
-// Minimal glTF files as text, and their pictures: what an oracle states in numbers is what the file says.
+// Minimal glTF files as text, and their images: what an oracle states in numbers is what the file says.
 #pragma once
 
 #include <functional>
@@ -26,7 +26,7 @@ struct Texels {
 };
 Texels MakeTexels(int width, int height, const std::function<std::vector<int>(int x, int y)>& rgba);
 
-// A document that grows by what is added; everything is in it, buffers and pictures as data URIs.
+// A document that grows by what is added; everything is in it, buffers and images as data URIs.
 class GltfFile {
  public:
   // Appends an object to one of the top-level arrays; returns its index.
@@ -37,7 +37,7 @@ class GltfFile {
   int Shorts(const std::string& type, const std::vector<int>& numbers);
   int Floats(const std::vector<Vec>& vectors);
 
-  // A texture with its picture and sampler ({...} of glTF's numbers); returns its index.
+  // A texture with its image and sampler ({...} of glTF's numbers); returns its index.
   int Texture(const Texels& texels, const std::string& sampler = "{}");
 
   // A node with a light of KHR_lights_punctual.
@@ -58,8 +58,8 @@ class GltfFile {
   std::string bytes_;
 };
 
-// A picture's light at the centre of each pixel.
-struct Picture {
+// An image's light at the centre of each pixel.
+struct Image {
   facet::Film film;
   Vec Color(int x, int y) const {
     const auto& p = film.pixels[std::size_t(y * film.width + x)];
@@ -70,13 +70,13 @@ struct Picture {
 
 // Loads the file, which must not give a warning, and renders it by its camera 0, one sample a pixel, without an
 // environment, as far as `change` does not say otherwise.
-Picture Draw(const GltfFile& file, int width, int height,
-             const std::function<void(facet::RenderSettings&)>& change = nullptr);
+Image Draw(const GltfFile& file, int width, int height,
+           const std::function<void(facet::RenderSettings&)>& change = nullptr);
 
 // Expects a pixel's light within `tolerance` of `expected`, relative to the larger of it and `floor`.
-void ExpectColor(const Picture& picture, int x, int y, Vec expected, double tolerance, double floor = 1e-3);
+void ExpectColor(const Image& image, int x, int y, Vec expected, double tolerance, double floor = 1e-3);
 
-// A camera at `eye` looking along -Z that sees [-half, half] in x and y: pixel (i, j) of an n x n picture shows
+// A camera at `eye` looking along -Z that sees [-half, half] in x and y: pixel (i, j) of an n x n image shows
 // x = half (2 (i + 1/2) / n - 1), y = half (1 - 2 (j + 1/2) / n), straight on (glTF 2.0, 3.10.3.2).
 void AddStraightCamera(GltfFile& file, double half, Vec eye = {0, 0, 10});
 inline Vec StraightPlace(int x, int y, int size, double half) {

@@ -27,7 +27,7 @@ struct Arriving {
 void ExpectWall(GltfFile& file, const Surface& surface, const std::function<std::vector<Arriving>(Vec)>& arriving) {
   AddSquare(file, kHalf, Material(surface));
   AddStraightCamera(file, kHalf);
-  const Picture picture = Draw(file, kSize, kSize);
+  const Image image = Draw(file, kSize, kSize);
   double brightest = 0.0;
   for (int y = 0; y < kSize; ++y) {
     for (int x = 0; x < kSize; ++x) {
@@ -35,7 +35,7 @@ void ExpectWall(GltfFile& file, const Surface& surface, const std::function<std:
       for (const Arriving& light : arriving(StraightPlace(x, y, kSize, kHalf))) {
         expected = expected + Reflect(surface, kNormal, {0, 0, 1}, light.toward) * light.irradiance;
       }
-      ExpectColor(picture, x, y, expected, kLitTolerance, kLitFloor);
+      ExpectColor(image, x, y, expected, kLitTolerance, kLitFloor);
       brightest = std::max(brightest, expected.y);
     }
   }
@@ -139,7 +139,7 @@ TEST(Material, SeenAtAnAngle) {
   file.Add("cameras", R"({"type":"perspective","perspective":{"yfov":1.1,"aspectRatio":1,"znear":0.01}})");
   file.Add("nodes",
            R"({"camera":0,"translation":)" + Numbers(eye) + R"(,"rotation":)" + Numbers(Turn(axis, kAngle)) + "}");
-  const Picture picture = Draw(file, kSize, kSize);
+  const Image image = Draw(file, kSize, kSize);
   int seen = 0;
   for (int y = 0; y < kSize; ++y) {
     for (int x = 0; x < kSize; ++x) {
@@ -149,7 +149,7 @@ TEST(Material, SeenAtAnAngle) {
       const Vec at = eye + ray * (-eye.z / ray.z);
       if (ray.z > -0.05 || std::fabs(at.x) > 7.9 || std::fabs(at.y) > 7.9) continue;
       const Vec away = Vec{-1.2, 1.3, 0.9} - at;
-      ExpectColor(picture, x, y, Reflect(surface, kNormal, -Unit(ray), Unit(away)) * (6.0 / Dot(away, away)),
+      ExpectColor(image, x, y, Reflect(surface, kNormal, -Unit(ray), Unit(away)) * (6.0 / Dot(away, away)),
                   kLitTolerance, kLitFloor);
       ++seen;
     }
@@ -168,8 +168,8 @@ TEST(Material, Emission) {
       R"({"pbrMetallicRoughness":{"baseColorFactor":[0.5,0.5,0.5,1],"metallicFactor":0},)"
       R"("emissiveFactor":[0.1,0.6,1],"extensions":{"KHR_materials_emissive_strength":{"emissiveStrength":3.5}}})");
   AddStraightCamera(file, kHalf);
-  const Picture picture = Draw(file, 4, 4);
-  ExpectColor(picture, 1, 2, Vec{0.35, 2.1, 3.5} + Reflect(surface, kNormal, {0, 0, 1}, {0, 0, 1}) * 2.0, kLitTolerance,
+  const Image image = Draw(file, 4, 4);
+  ExpectColor(image, 1, 2, Vec{0.35, 2.1, 3.5} + Reflect(surface, kNormal, {0, 0, 1}, {0, 0, 1}) * 2.0, kLitTolerance,
               kLitFloor);
 }
 

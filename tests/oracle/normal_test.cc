@@ -62,7 +62,7 @@ void ExpectMesh(const Mesh& mesh, const std::string& node, const Frame& world, b
       AddMesh(file, mesh, std::string("{") + kPaintJson + (double_sided ? R"(,"doubleSided":true})" : "}"));
   file.Add("nodes", R"({"mesh":)" + std::to_string(index) + node + "}");
   AddStraightCamera(file, kHalf);
-  const Picture picture = Draw(file, kSize, kSize);
+  const Image image = Draw(file, kSize, kSize);
   const bool mirrored = Dot(world.x, Cross(world.y, world.z)) < 0.0;
   int seen = 0;
   double brightest = 0.0;
@@ -97,10 +97,10 @@ void ExpectMesh(const Mesh& mesh, const std::string& node, const Frame& world, b
         if (mesh.normals.empty() && !front) normal = -normal;
       }
       if (unsure) continue;
-      ASSERT_EQ(picture.Alpha(x, y), nearest < 1e30 ? 1.0 : 0.0) << x << ", " << y;
+      ASSERT_EQ(image.Alpha(x, y), nearest < 1e30 ? 1.0 : 0.0) << x << ", " << y;
       if (nearest > 1e29 || normal.z < 0.02) continue;
       const Vec expected = Reflect(kPaint, normal, {0, 0, 1}, TowardSun()) * 3.0;
-      ExpectColor(picture, x, y, expected, kLitTolerance, kLitFloor);
+      ExpectColor(image, x, y, expected, kLitTolerance, kLitFloor);
       brightest = std::fmax(brightest, expected.x);
       ++seen;
     }
@@ -152,7 +152,7 @@ TEST(Normals, SeenFromBehind) {
   ExpectMesh(bowl, TrsNode({}, {1, 0, 0}, 0.0, {1.6, 1.6, 1.0}), Place({}, {1, 0, 0}, 0.0, {1.6, 1.6, 1.0}), true);
 }
 
-// --- Normal maps (3.9.3) ---------------------------------------------------------------------------------------------
+// --- Normal maps (3.9.3) --------------------------------------------------------------------------------------------
 
 struct Tilt {
   int red = 0, green = 0, blue = 0;
@@ -164,7 +164,7 @@ struct Tilt {
 };
 
 // A square whose every texel bends the normal alike, under a node: what it is lit like tells the normal. `right` and
-// `up`: the directions in the square's plane in which the picture's right and top point.
+// `up`: the directions in the square's plane in which the image's right and top point.
 void ExpectBent(const Tilt& tilt, const std::vector<double>& uv, const std::string& tangents, const std::string& node,
                 const Frame& world, Vec right, Vec up) {
   GltfFile file;
@@ -186,7 +186,7 @@ void ExpectBent(const Tilt& tilt, const std::vector<double>& uv, const std::stri
                 std::to_string(texture) + R"(,"scale":)" + Number(tilt.scale) + "}}",
             attributes, node, uv);
   AddStraightCamera(file, 1.0);
-  const Picture picture = Draw(file, 4, 4);
+  const Image image = Draw(file, 4, 4);
   const Vec n = tilt.InTangentSpace();
   // Tangents turn as directions do, the normal by the inverse transpose, and the bitangent is made of both: all are
   // perpendicular here.
@@ -194,7 +194,7 @@ void ExpectBent(const Tilt& tilt, const std::vector<double>& uv, const std::stri
   Vec normal = Unit(t * n.x + b * n.y + z * n.z);
   if (z.z < 0.0) normal = -normal;  // seen from behind
   for (int i = 0; i < 4; ++i) {
-    ExpectColor(picture, i, 3 - i, Reflect(kPaint, normal, {0, 0, 1}, TowardSun()) * 3.0, kLitTolerance, kLitFloor);
+    ExpectColor(image, i, 3 - i, Reflect(kPaint, normal, {0, 0, 1}, TowardSun()) * 3.0, kLitTolerance, kLitFloor);
   }
 }
 
@@ -211,9 +211,9 @@ TEST(NormalMap, BendsAsItSays) {
   }
 }
 
-// The picture turned by a quarter and mirrored on the square: tangents follow it.
+// The image turned by a quarter and mirrored on the square: tangents follow it.
 TEST(NormalMap, FollowsTheTexture) {
-  // u runs up and v to the right: the picture's right is up, its top to the left.
+  // u runs up and v to the right: the image's right is up, its top to the left.
   ExpectBent(kTilt, {0, 0, 0, 1, 1, 1, 1, 0}, "", "", {}, {0, 1, 0}, {-1, 0, 0});
   // u runs to the left: mirrored.
   ExpectBent(kTilt, {1, 1, 0, 1, 0, 0, 1, 0}, "", "", {}, {-1, 0, 0}, {0, 1, 0});

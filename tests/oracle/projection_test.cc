@@ -33,12 +33,12 @@ struct Placed {
 
 // The light of each pixel's centre: of the nearest triangle that its ray meets between the planes. `along` has length 1
 // along the viewing axis.
-void ExpectTriangles(const Picture& picture, const std::vector<Placed>& triangles,
+void ExpectTriangles(const Image& image, const std::vector<Placed>& triangles,
                      const std::function<Ray(double x, double y)>& ray_through, double near_distance,
                      double far_distance) {
   int seen = 0, passed = 0;
-  for (int y = 0; y < picture.film.height; ++y) {
-    for (int x = 0; x < picture.film.width; ++x) {
+  for (int y = 0; y < image.film.height; ++y) {
+    for (int x = 0; x < image.film.width; ++x) {
       const Ray ray = ray_through(x + 0.5, y + 0.5);
       double nearest = far_distance;
       Vec color;
@@ -61,15 +61,15 @@ void ExpectTriangles(const Picture& picture, const std::vector<Placed>& triangle
         ++passed;
         continue;
       }
-      ASSERT_EQ(picture.Alpha(x, y), met ? 1.0 : 0.0) << x << ", " << y;
+      ASSERT_EQ(image.Alpha(x, y), met ? 1.0 : 0.0) << x << ", " << y;
       if (met) {
-        ExpectColor(picture, x, y, color, 2e-5, 1.0);
+        ExpectColor(image, x, y, color, 2e-5, 1.0);
         ++seen;
       }
     }
   }
-  EXPECT_GT(seen, picture.film.width * picture.film.height / 10);
-  EXPECT_LT(passed, picture.film.width * picture.film.height / 10);
+  EXPECT_GT(seen, image.film.width * image.film.height / 10);
+  EXPECT_LT(passed, image.film.width * image.film.height / 10);
 }
 
 const Triangle kFirst = {{{-1.2, -0.7, 0.3}, {1, 0, 0}}, {{1.5, -0.2, -1.0}, {0, 1, 0}}, {{0.1, 1.1, 0.8}, {0, 0, 1}}};

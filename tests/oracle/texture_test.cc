@@ -79,7 +79,7 @@ void ExpectTexture(const Texels& texels, Wrap wrap_u, Wrap wrap_v, bool linear, 
                R"({"magFilter":)" + filter + R"(,"minFilter":)" + filter + R"(,"wrapS":)" +
                    std::to_string(GltfNumber(wrap_u)) + R"(,"wrapT":)" + std::to_string(GltfNumber(wrap_v)) + "}",
                UvOf(u0, v0, u1, v1));
-  const Picture picture = Draw(file, kSize, kSize);
+  const Image image = Draw(file, kSize, kSize);
   for (int y = 0; y < kSize; ++y) {
     for (int x = 0; x < kSize; ++x) {
       const double u = u0 + (u1 - u0) * (x + 0.5) / kSize, v = v0 + (v1 - v0) * (y + 0.5) / kSize;
@@ -87,12 +87,12 @@ void ExpectTexture(const Texels& texels, Wrap wrap_u, Wrap wrap_v, bool linear, 
       const double edge_v = std::fabs(v * texels.height - std::round(v * texels.height));
       if (!linear && std::min(edge_u, edge_v) < 1e-3) continue;  // either neighbour
       // Light is kept in 16 bits and weights in 14.
-      ExpectColor(picture, x, y, TexelAt(texels, wrap_u, wrap_v, linear, u, v), 2e-4, 1.0);
+      ExpectColor(image, x, y, TexelAt(texels, wrap_u, wrap_v, linear, u, v), 2e-4, 1.0);
     }
   }
 }
 
-TEST(Texture, TexelsOfAPicture) {
+TEST(Texture, TexelsOfAnImage) {
   ExpectTexture(Colorful(4, 3), Wrap::Repeat, Wrap::Repeat, false, 0.0, 0.0, 1.0, 1.0);
   ExpectTexture(Colorful(4, 3), Wrap::Clamp, Wrap::Clamp, true, 0.0, 0.0, 1.0, 1.0);
 }
@@ -114,13 +114,13 @@ TEST(Texture, TransformedAsItsExampleSays) {
       texels, R"({"magFilter":9728,"minFilter":9728})", UvOf(0, 0, 1, 1),
       R"(,"extensions":{"KHR_texture_transform":{"offset":[0,1],"rotation":1.57079632679,"scale":[0.5,0.5]}})");
   file.Use("KHR_texture_transform");
-  const Picture picture = Draw(file, kSize, kSize);
+  const Image image = Draw(file, kSize, kSize);
   for (int y = 0; y < kSize; ++y) {
     for (int x = 0; x < kSize; ++x) {
       // The quadrant's columns 0 to 3 and rows 4 to 7; turned clockwise, its left column becomes the top row.
       const int column = y, row = 7 - x;
-      ExpectColor(picture, x, y,
-                  TexelAt(texels, Wrap::Repeat, Wrap::Repeat, false, (column + 0.5) / 8, (row + 0.5) / 8), 1e-4, 1.0);
+      ExpectColor(image, x, y, TexelAt(texels, Wrap::Repeat, Wrap::Repeat, false, (column + 0.5) / 8, (row + 0.5) / 8),
+                  1e-4, 1.0);
     }
   }
 }
@@ -141,26 +141,26 @@ TEST(Texture, TransformedWithEveryPart) {
                 R"("texCoord":1}}}},"extensions":{"KHR_materials_unlit":{}}})",
             R"(,"TEXCOORD_1":)" + std::to_string(second));
   AddStraightCamera(file, 1.0);
-  const Picture picture = Draw(file, kSize, kSize);
+  const Image image = Draw(file, kSize, kSize);
   for (int y = 0; y < kSize; ++y) {
     for (int x = 0; x < kSize; ++x) {
       const double u = 1.5 * (0.2 + 1.1 * (x + 0.5) / kSize), v = 0.7 * (0.1 + 0.8 * (y + 0.5) / kSize);
       // Counter-clockwise where v points down: (1, 0) goes to (cos, -sin).
       const double turned_u = std::cos(kTurn) * u + std::sin(kTurn) * v,
                    turned_v = std::cos(kTurn) * v - std::sin(kTurn) * u;
-      ExpectColor(picture, x, y, TexelAt(texels, Wrap::Repeat, Wrap::Repeat, true, turned_u + 0.3, turned_v - 0.2),
-                  3e-4, 1.0);
+      ExpectColor(image, x, y, TexelAt(texels, Wrap::Repeat, Wrap::Repeat, true, turned_u + 0.3, turned_v - 0.2), 3e-4,
+                  1.0);
     }
   }
 }
 
-// A picture as small as a pixel shows its mean, of light and not of codes.
+// An image as small as a pixel shows its mean, of light and not of codes.
 TEST(Texture, MinifiedToItsMean) {
   const Texels texels = MakeTexels(16, 16, [](int x, int y) {
     return (x + y) % 2 == 0 ? std::vector<int>{255, 128, 0, 255} : std::vector<int>{0, 0, 64, 255};
   });
-  const Picture picture = Draw(Textured(texels, "{}", UvOf(0, 0, 1, 1)), 1, 1);
-  ExpectColor(picture, 0, 0, {0.5, 0.5 * FromSrgb(128), 0.5 * FromSrgb(64)}, 1e-4, 1.0);
+  const Image image = Draw(Textured(texels, "{}", UvOf(0, 0, 1, 1)), 1, 1);
+  ExpectColor(image, 0, 0, {0.5, 0.5 * FromSrgb(128), 0.5 * FromSrgb(64)}, 1e-4, 1.0);
 }
 
 // Roughness is G, metalness B (3.9.2), plain numbers times the factors; a mistake of channels or of curve shows.
@@ -192,11 +192,11 @@ TEST(Texture, ColorsAreMultiplied) {
                 std::to_string(texture) + R"(}},"extensions":{"KHR_materials_unlit":{}}})",
             R"(,"COLOR_0":)" + std::to_string(colors));
   AddStraightCamera(file, 1.0);
-  const Picture picture = Draw(file, kSize, kSize);
+  const Image image = Draw(file, kSize, kSize);
   for (int y = 0; y < kSize; ++y) {
     for (int x = 0; x < kSize; ++x) {
       const double along = (x + 0.5) / kSize, up = 1.0 - (y + 0.5) / kSize;
-      ExpectColor(picture, x, y,
+      ExpectColor(image, x, y,
                   {0.5 * FromSrgb(200) * along, 0.8 * FromSrgb(100) * 0.5, FromSrgb(50) * (0.25 + 0.75 * (1.0 - up))},
                   1e-4, 1.0);
     }
@@ -209,10 +209,10 @@ TEST(Texture, ColorsAreMultiplied) {
   ExpectColor(Draw(glow, 2, 2), 1, 1, {FromSrgb(200), 0.5 * FromSrgb(100), 0.25 * FromSrgb(50)}, 1e-4, 1.0);
 }
 
-// --- Alpha (3.9.4) ---------------------------------------------------------------------------------------------------
+// --- Alpha (3.9.4) --------------------------------------------------------------------------------------------------
 
 // A row of alphas, 0 to 255 from left to right, over a blue wall.
-Picture AlphaPicture(const std::string& mode_members, int size) {
+Image AlphaImage(const std::string& mode_members, int size) {
   GltfFile file;
   file.Use("KHR_materials_unlit");
   const int texture = file.Texture(MakeTexels(size, 1,
@@ -233,10 +233,9 @@ Picture AlphaPicture(const std::string& mode_members, int size) {
 TEST(Alpha, Modes) {
   constexpr int kSize = 18;
   const Vec front{0.8, 0.4, 0.2}, back{0.1, 0.2, 0.7};
-  const Picture opaque = AlphaPicture("", kSize),
-                mask = AlphaPicture(R"(,"alphaMode":"MASK","alphaCutoff":0.3)", kSize),
-                default_mask = AlphaPicture(R"(,"alphaMode":"MASK")", kSize),
-                blend = AlphaPicture(R"(,"alphaMode":"BLEND")", kSize);
+  const Image opaque = AlphaImage("", kSize), mask = AlphaImage(R"(,"alphaMode":"MASK","alphaCutoff":0.3)", kSize),
+              default_mask = AlphaImage(R"(,"alphaMode":"MASK")", kSize),
+              blend = AlphaImage(R"(,"alphaMode":"BLEND")", kSize);
   for (int x = 0; x < kSize; ++x) {
     SCOPED_TRACE(x);
     const double alpha = 0.9 * (x * 255 / (kSize - 1)) / 255.0;
@@ -263,10 +262,10 @@ TEST(Alpha, LayersInTheirDepth) {
   layer(file, "[0,0,1,0.25]", 3.0);
   layer(file, "[1,0,0,0.75]", 1.0);
   AddStraightCamera(file, 1.0);
-  const Picture picture = Draw(file, 2, 2);
+  const Image image = Draw(file, 2, 2);
   // The film is premultiplied: nearest first, each through what those before it let pass.
-  ExpectColor(picture, 0, 0, {0.75 * 0.5 * 0.75, 0.75 * 0.5, 0.25}, 1e-6);
-  EXPECT_NEAR(picture.Alpha(0, 0), 1.0 - 0.75 * 0.5 * 0.25, 1e-6);
+  ExpectColor(image, 0, 0, {0.75 * 0.5 * 0.75, 0.75 * 0.5, 0.25}, 1e-6);
+  EXPECT_NEAR(image.Alpha(0, 0), 1.0 - 0.75 * 0.5 * 0.25, 1e-6);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What a frame leaves out, why, and that leaving it out does not change the picture.
+// What a frame leaves out, why, and that leaving it out does not change the image.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,8 +13,8 @@ FramePlan PlanOf(const Scene& scene, const RenderSettings& settings) {
   return MakeFramePlan(scene, Pose(scene, PoseSettings()), settings);
 }
 
-bool LeftOut(const FramePlan& plan, const std::string& what) {
-  return std::any_of(plan.left_out.begin(), plan.left_out.end(),
+bool IsDisabled(const FramePlan& plan, const std::string& what) {
+  return std::any_of(plan.disabled.begin(), plan.disabled.end(),
                      [&](const std::string& line) { return line.rfind(what + ": ", 0) == 0; });
 }
 
@@ -31,23 +31,23 @@ Scene LitSphere(const Material& material = {}) {
 }
 
 int WhiteTexture(Scene& scene, int size) {
-  return AddTexture(scene, Picture(size, size, [](int, int) { return glm::u8vec4(255); }));
+  return AddTexture(scene, MakeImage(size, size, [](int, int) { return glm::u8vec4(255); }));
 }
 
-TEST(FramePlan, WhatIsLeftOutHasAReason) {
+TEST(FramePlan, WhatIsDisabledHasAReason) {
   const FramePlan plan = PlanOf(LitSphere(), StudioSettings());
-  for (const std::string& line : plan.left_out) {
+  for (const std::string& line : plan.disabled) {
     const std::size_t colon = line.find(": ");
     ASSERT_NE(colon, std::string::npos) << line;
     EXPECT_GT(colon, 0u) << line;
     EXPECT_GT(line.size(), colon + 2) << line;
   }
   EXPECT_TRUE(plan.environment_light);
-  EXPECT_FALSE(LeftOut(plan, "environment light"));
+  EXPECT_FALSE(IsDisabled(plan, "environment light"));
   for (const char* what : {"environment background", "punctual lights", "alpha test", "blending", "tangents",
                            "vertex colours", "base colour textures", "metallic-roughness textures", "normal textures",
                            "occlusion textures", "emission", "skins", "morph targets", "planes besides colour"}) {
-    EXPECT_TRUE(LeftOut(plan, what)) << what;
+    EXPECT_TRUE(IsDisabled(plan, what)) << what;
   }
 }
 
@@ -73,34 +73,34 @@ TEST(FramePlan, EachFeatureIsThereWhenSomethingNeedsIt) {
     change(scene, settings);
     return PlanOf(scene, settings);
   };
-  EXPECT_FALSE(LeftOut(with([](Scene&, RenderSettings& s) { s.background = Background::Environment; }),
-                       "environment background"));
-  EXPECT_FALSE(LeftOut(with([](Scene& s, RenderSettings&) {
-                         s.lights.emplace_back();
-                         s.nodes.emplace_back();
-                         s.nodes.back().light = 0;
-                       }),
-                       "punctual lights"));
+  EXPECT_FALSE(IsDisabled(with([](Scene&, RenderSettings& s) { s.background = Background::Environment; }),
+                          "environment background"));
+  EXPECT_FALSE(IsDisabled(with([](Scene& s, RenderSettings&) {
+                            s.lights.emplace_back();
+                            s.nodes.emplace_back();
+                            s.nodes.back().light = 0;
+                          }),
+                          "punctual lights"));
   EXPECT_FALSE(
-      LeftOut(with([](Scene& s, RenderSettings&) { s.materials[0].alpha_mode = AlphaMode::Mask; }), "alpha test"));
+      IsDisabled(with([](Scene& s, RenderSettings&) { s.materials[0].alpha_mode = AlphaMode::Mask; }), "alpha test"));
   EXPECT_FALSE(
-      LeftOut(with([](Scene& s, RenderSettings&) { s.materials[0].alpha_mode = AlphaMode::Blend; }), "blending"));
+      IsDisabled(with([](Scene& s, RenderSettings&) { s.materials[0].alpha_mode = AlphaMode::Blend; }), "blending"));
   const FramePlan normals =
       with([](Scene& s, RenderSettings&) { s.materials[0].normal_texture = Ref(WhiteTexture(s, 1)); });
-  EXPECT_FALSE(LeftOut(normals, "tangents"));
-  EXPECT_FALSE(LeftOut(normals, "normal textures"));
-  EXPECT_FALSE(LeftOut(with([](Scene& s, RenderSettings&) {
-                         Primitive& p = s.meshes[0].primitives[0];
-                         p.colors.assign(p.positions.size(), glm::vec4(1.0f));
-                       }),
-                       "vertex colours"));
-  EXPECT_TRUE(LeftOut(with([](Scene& s, RenderSettings&) { s.materials[0].model = ShadingModel::Unlit; }),
-                      "environment light"));
-  EXPECT_TRUE(LeftOut(with([](Scene&, RenderSettings& s) { s.environment.kind = EnvironmentSettings::Kind::None; }),
-                      "environment light"));
+  EXPECT_FALSE(IsDisabled(normals, "tangents"));
+  EXPECT_FALSE(IsDisabled(normals, "normal textures"));
+  EXPECT_FALSE(IsDisabled(with([](Scene& s, RenderSettings&) {
+                            Primitive& p = s.meshes[0].primitives[0];
+                            p.colors.assign(p.positions.size(), glm::vec4(1.0f));
+                          }),
+                          "vertex colours"));
+  EXPECT_TRUE(IsDisabled(with([](Scene& s, RenderSettings&) { s.materials[0].model = ShadingModel::Unlit; }),
+                         "environment light"));
+  EXPECT_TRUE(IsDisabled(with([](Scene&, RenderSettings& s) { s.environment.kind = EnvironmentSettings::Kind::None; }),
+                         "environment light"));
 }
 
-TEST(FramePlan, ANormalTextureWithoutAPictureNeedsNoTangents) {
+TEST(FramePlan, ANormalTextureWithoutAnImageNeedsNoTangents) {
   Scene scene = LitSphere();
   scene.textures.emplace_back();
   scene.materials[0].normal_texture = Ref(0);
@@ -108,11 +108,11 @@ TEST(FramePlan, ANormalTextureWithoutAPictureNeedsNoTangents) {
   ASSERT_EQ(plan.materials.size(), 1u);
   EXPECT_FALSE(plan.materials[0].frame.Has(kTangentSpaceBits));
   EXPECT_EQ(plan.materials[0].frame.uv_slots, 0);
-  const auto left_out = [&](const char* line) {
-    return std::find(plan.left_out.begin(), plan.left_out.end(), line) != plan.left_out.end();
+  const auto disabled = [&](const char* line) {
+    return std::find(plan.disabled.begin(), plan.disabled.end(), line) != plan.disabled.end();
   };
-  EXPECT_TRUE(left_out("tangents: no normal texture is read"));
-  EXPECT_TRUE(LeftOut(plan, "normal textures"));
+  EXPECT_TRUE(disabled("tangents: no normal texture is read"));
+  EXPECT_TRUE(IsDisabled(plan, "normal textures"));
 }
 
 TEST(FramePlan, TexturesAreSharedByRoleAndUvSetsByNumber) {
@@ -179,7 +179,7 @@ void ExpectSameBits(const std::function<void(Scene&)>& change, const std::string
   EXPECT_TRUE(SameBytes(Render(scene, StudioSettings(samples)), without)) << what;
 }
 
-TEST(FramePlan, FeaturesThatMeanNothingDoNotChangeThePicture) {
+TEST(FramePlan, FeaturesThatMeanNothingDoNotChangeTheImage) {
   // A white texel is (2^n - 1) * round(1 / (2^n - 1)) = 1 exactly, and mixtures of 1 are 1.
   for (int size : {1, 4, 64}) {
     ExpectSameBits([&](Scene& s) { s.materials[0].base_color_texture = Ref(WhiteTexture(s, size)); },
@@ -191,8 +191,8 @@ TEST(FramePlan, FeaturesThatMeanNothingDoNotChangeThePicture) {
   ExpectSameBits([](Scene& s) { s.materials[0].emissive_texture = Ref(WhiteTexture(s, 4)); }, "emission of factor 0");
   ExpectSameBits(
       [](Scene& s) {
-        s.materials[0].occlusion_texture =
-            Ref(AddTexture(s, Picture(2, 2, [](int x, int y) { return glm::u8vec4(std::uint8_t(x * 90 + y * 70)); })));
+        s.materials[0].occlusion_texture = Ref(
+            AddTexture(s, MakeImage(2, 2, [](int x, int y) { return glm::u8vec4(std::uint8_t(x * 90 + y * 70)); })));
         s.materials[0].occlusion_strength = 0.0f;
       },
       "occlusion of strength 0");
@@ -219,7 +219,7 @@ TEST(FramePlan, FeaturesThatMeanNothingDoNotChangeThePicture) {
       "things that nothing uses");
   ExpectSameBits(
       [](Scene& s) {
-        s.textures.emplace_back();  // without a picture
+        s.textures.emplace_back();  // without an image
         s.materials[0].base_color_texture = Ref(0);
         s.materials[0].normal_texture = Ref(0);
       },

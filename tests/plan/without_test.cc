@@ -25,7 +25,7 @@ constexpr Feature kAll[kFeatureCount] = {Feature::BaseColorTexture,
 
 int Speckles(Scene& scene, unsigned seed) {
   Uniform random(seed);
-  return AddTexture(scene, Picture(8, 8, [&](int, int) {
+  return AddTexture(scene, MakeImage(8, 8, [&](int, int) {
                       return glm::u8vec4(random(90, 255), random(90, 255), random(160, 255), random(0, 255));
                     }));
 }
@@ -125,12 +125,12 @@ TEST(Without, IsTheSceneMadeWithout) {
     Scene scene = RichScene();
     RenderSettings settings = SettingsFor(), without = settings;
     without.without.Add(feature);
-    const Film left_out = Render(scene, without);
-    EXPECT_FALSE(SameBytes(left_out, whole)) << "the scene does not show the feature";
+    const Film disabled = Render(scene, without);
+    EXPECT_FALSE(SameBytes(disabled, whole)) << "the scene does not show the feature";
     TakeOut(feature, scene, settings);
-    EXPECT_TRUE(SameBytes(left_out, Render(scene, settings)));
+    EXPECT_TRUE(SameBytes(disabled, Render(scene, settings)));
     settings.without.Add(feature);
-    EXPECT_TRUE(SameBytes(left_out, Render(scene, settings))) << "what is not there is left out";
+    EXPECT_TRUE(SameBytes(disabled, Render(scene, settings))) << "what is not there is left out";
   }
 }
 
@@ -139,10 +139,10 @@ TEST(Without, AllTogether) {
   RenderSettings settings = SettingsFor(), without = settings;
   for (const Feature feature : kAll) without.without.Add(feature);
   RenderStats stats;
-  const Film left_out = Render(scene, without, &stats);
+  const Film disabled = Render(scene, without, &stats);
   EXPECT_EQ(stats.texture_bytes + stats.environment_bytes + stats.pose_bytes + stats.images_decoded, 0u);
   for (const Feature feature : kAll) TakeOut(feature, scene, settings);
-  EXPECT_TRUE(SameBytes(left_out, Render(scene, settings)));
+  EXPECT_TRUE(SameBytes(disabled, Render(scene, settings)));
 }
 
 TEST(Without, ThePlanSaysWhoAsked) {
@@ -154,7 +154,7 @@ TEST(Without, ThePlanSaysWhoAsked) {
   for (const Feature feature : kAll) settings.without.Add(feature);
   const FramePlan empty = plan();
   EXPECT_EQ(empty.uses, FeatureSet());
-  EXPECT_EQ(std::count_if(empty.left_out.begin(), empty.left_out.end(),
+  EXPECT_EQ(std::count_if(empty.disabled.begin(), empty.disabled.end(),
                           [](const std::string& line) { return line.ends_with(": on request"); }),
             kFeatureCount);
 }
@@ -179,7 +179,7 @@ TEST(Without, EnvironmentLightLeavesTheBackground) {
   EXPECT_LT(covered, 72 * 64 - 500);
 }
 
-// --- Shaders of one's own --------------------------------------------------------------------------------------------
+// --- Shaders of one's own -------------------------------------------------------------------------------------------
 
 class Reader final : public FragmentShader {
  public:
@@ -223,7 +223,7 @@ TEST(Without, LightIsPreparedForShadersThatReadIt) {
   EXPECT_EQ(LightUseOf<int>(), LightUse::LitMaterials);
 }
 
-// --- Using what is not needed ----------------------------------------------------------------------------------------
+// --- Using what is not needed ---------------------------------------------------------------------------------------
 
 TEST(OmitUnused, FalseUsesMoreForTheSameBits) {
   for (const int samples : {1, 4}) {
@@ -243,7 +243,7 @@ TEST(OmitUnused, FalseUsesMoreForTheSameBits) {
       EXPECT_TRUE(SameBytes(Render(*scene, settings, &full), film));
       EXPECT_GT(full.textures.size(), lean.textures.size());
       const FramePlan plan = MakeFramePlan(*scene, Pose(*scene, PoseOf(settings)), settings);
-      EXPECT_TRUE(plan.environment_light && plan.alpha_test && (plan.dark_light || plan.punctual_lights));
+      EXPECT_TRUE(plan.environment_light && plan.alpha_test && (plan.zero_light || plan.punctual_lights));
       EXPECT_GT(full.environment_bytes, 0u);
     }
     // The features that are left out on request come back with values that change nothing, too.

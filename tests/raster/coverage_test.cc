@@ -8,7 +8,7 @@ namespace {
 
 // Every sample of the half-open rectangle is covered once and no other sample at all, whatever the target, the number
 // of samples and the tile size.
-void ExpectWatertight(const std::vector<TriangleRecord>& records, PointFx8 low, PointFx8 high, int width, int height) {
+void ExpectWatertight(const std::vector<ScreenTriangle>& records, PointFx8 low, PointFx8 high, int width, int height) {
   for (const Target target : AvailableTargets()) {
     const ScopedTarget scoped(target);
     for (const int samples : kSampleCounts) {
@@ -89,7 +89,7 @@ TEST(Watertight, RectanglesOfTheGuardBand) {
     const PointFx8 high = {(kWidth / 2 + kGuardBand) * 256, kHeight * 128 + kGuardBand * 256};
     Triangulation mesh(low, high);
     for (int i = 0; i < 120; ++i) {
-      // Half of the points within the picture, half anywhere: slivers of thousands of pixels run through it.
+      // Half of the points within the image, half anywhere: slivers of thousands of pixels run through it.
       if (i % 2 == 0) {
         mesh.Insert({random.Int(0, kWidth * 16) * 16, random.Int(0, kHeight * 256)});
       } else {
@@ -136,19 +136,19 @@ TEST(Watertight, Fans) {
     if (seed == 2) centre = {centre.x / 256 * 256 + 128, centre.y / 256 * 256 + 128};
     if (seed == 3) centre = {4 * 2048, 2 * 2048};
     if (seed == 4) centre = low;
-    std::vector<TriangleRecord> records;
+    std::vector<ScreenTriangle> records;
     for (std::size_t i = 0; i < rim.size(); ++i) {
       const PointFx8 a = rim[i], b = rim[(i + 1) % rim.size()];
-      if (DoubleArea(centre, a, b) != 0) records.push_back(MakeRecord(centre, a, b));
+      if (DoubleArea(centre, a, b) != 0) records.push_back(MakeScreenTriangle(centre, a, b));
     }
     ExpectWatertight(records, low, high, kWidth, kHeight);
   }
 }
 
 // One triangle against brute force over a tile that it touches.
-void ExpectExact(const TriangleRecord& record, int x0, int y0, int tile_size) {
-  const TileGrid grid = MakeTileGrid(kMaxPictureSize, kMaxPictureSize, tile_size);
-  const std::vector<TriangleRecord> records = {record};
+void ExpectExact(const ScreenTriangle& record, int x0, int y0, int tile_size) {
+  const TileGrid grid = MakeTileGrid(kMaxImageSize, kMaxImageSize, tile_size);
+  const std::vector<ScreenTriangle> records = {record};
   const Submission submission(records);
   for (const int samples : kSampleCounts) {
     const TileBuffers tile = MakeTile(grid, x0 / tile_size, y0 / tile_size, samples);
@@ -190,15 +190,15 @@ TEST(Coverage, RandomTrianglesMatchBruteForce) {
     const PointFx8 a = point(), b = point(),
                    c = i % 5 == 0 ? PointFx8{a.x + random.Int(-300, 300), a.y + random.Int(-300, 300)} : point();
     if (DoubleArea(a, b, c) == 0) continue;
-    ExpectExact(MakeRecord(a, b, c), 0, 0, 64);
+    ExpectExact(MakeScreenTriangle(a, b, c), 0, 0, 64);
     const int tile_size = kTileSizes[random.Int(0, 3)];
-    ExpectExact(MakeRecord(a, b, c), random.Int(0, 127), random.Int(0, 127), tile_size);
+    ExpectExact(MakeScreenTriangle(a, b, c), random.Int(0, 127), random.Int(0, 127), tile_size);
   }
 }
 
 // Vertices as far apart as the guard band allows: 32768 pixels.
 TEST(Coverage, HugeTrianglesMatchBruteForce) {
-  constexpr int kLow = (kMaxPictureSize / 2 - kGuardBand) * 256, kHigh = (kMaxPictureSize / 2 + kGuardBand) * 256;
+  constexpr int kLow = (kMaxImageSize / 2 - kGuardBand) * 256, kHigh = (kMaxImageSize / 2 + kGuardBand) * 256;
   Random random(12);
   for (int i = 0; i < 250; ++i) {
     SCOPED_TRACE("seed 12, triangle " + std::to_string(i));
@@ -212,7 +212,7 @@ TEST(Coverage, HugeTrianglesMatchBruteForce) {
     const double t = random.Real(0.0, 1.0);
     const int x = static_cast<int>((a.x + t * (double{static_cast<double>(b.x)} - a.x)) / 256.0);
     const int y = static_cast<int>((a.y + t * (double{static_cast<double>(b.y)} - a.y)) / 256.0);
-    ExpectExact(MakeRecord(a, b, c), std::clamp(x, 0, kMaxPictureSize - 1), std::clamp(y, 0, kMaxPictureSize - 1),
+    ExpectExact(MakeScreenTriangle(a, b, c), std::clamp(x, 0, kMaxImageSize - 1), std::clamp(y, 0, kMaxImageSize - 1),
                 kTileSizes[random.Int(2, 3)]);
   }
 }
@@ -227,14 +227,14 @@ TEST(Coverage, EdgesThroughSamples) {
       return SampleAt(random.Int(0, 15), random.Int(0, 15), samples, random.Int(0, samples - 1));
     };
     const PointFx8 a = sample(), b = sample(), c = sample();
-    if (DoubleArea(a, b, c) != 0) ExpectExact(MakeRecord(a, b, c), 0, 0, 16);
+    if (DoubleArea(a, b, c) != 0) ExpectExact(MakeScreenTriangle(a, b, c), 0, 0, 16);
   }
 }
 
 // The rule by hand: the unit square [1, 2) x [1, 2) of pixel centres, as two triangles.
 TEST(Coverage, TopLeftRuleByHand) {
   // Vertices on pixel centres (1,1) (3,1) (1,3): of the centres on its edges the top and the left ones belong to it.
-  const TriangleRecord r = MakeRecord({384, 384}, {896, 384}, {384, 896});
+  const ScreenTriangle r = MakeScreenTriangle({384, 384}, {896, 384}, {384, 896});
   for (const Target target : AvailableTargets()) {
     const ScopedTarget scoped(target);
     CoverageCount got = CountCoverage({r}, 8, 8, 8, 1);

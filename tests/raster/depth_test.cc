@@ -12,14 +12,14 @@ namespace {
 
 constexpr int kWidth = 60, kHeight = 45;
 
-std::vector<TriangleRecord> RandomRecords(Random& random, int count) {
-  std::vector<TriangleRecord> records;
+std::vector<ScreenTriangle> RandomRecords(Random& random, int count) {
+  std::vector<ScreenTriangle> records;
   while (static_cast<int>(records.size()) < count) {
     const auto point = [&] { return PointFx8{random.Int(-3000, 18000), random.Int(-3000, 15000)}; };
     const auto depth = [&] { return static_cast<float>(random.Real(0.01, 3.0)); };
     const PointFx8 a = point(), b = point(),
                    c = random.Int(0, 3) == 0 ? PointFx8{a.x + random.Int(-200, 200), a.y + 3} : point();
-    if (DoubleArea(a, b, c) != 0) records.push_back(MakeRecord(a, b, c, depth(), depth(), depth()));
+    if (DoubleArea(a, b, c) != 0) records.push_back(MakeScreenTriangle(a, b, c, depth(), depth(), depth()));
   }
   return records;
 }
@@ -48,13 +48,13 @@ TEST(Depth, IsTheAffineFunctionThroughTheVertices) {
   Random random(21);
   for (int i = 0; i < 100; ++i) {
     SCOPED_TRACE("seed 21, triangle " + std::to_string(i));
-    const int reach = i % 2 == 0 ? 0 : 4000000;  // some reach far out of the picture
+    const int reach = i % 2 == 0 ? 0 : 4000000;  // some reach far out of the image
     const auto coordinate = [&] { return random.Int(-reach, 15000 + reach); };
     const PointFx8 v[3] = {{coordinate(), coordinate()}, {coordinate(), coordinate()}, {coordinate(), coordinate()}};
     const float z[3] = {static_cast<float>(random.Real(0.1, 2.0)), static_cast<float>(random.Real(0.1, 2.0)),
                         static_cast<float>(random.Real(0.1, 2.0))};
     if (std::abs(DoubleArea(v[0], v[1], v[2])) < 1000000) continue;
-    const std::vector<TriangleRecord> records = {MakeRecord(v[0], v[1], v[2], z[0], z[1], z[2])};
+    const std::vector<ScreenTriangle> records = {MakeScreenTriangle(v[0], v[1], v[2], z[0], z[1], z[2])};
     const Submission submission(records);
     const long double tolerance = 8.0L * 0x1p-24L * std::max({z[0], z[1], z[2]});
     // The gradient is rounded to float: slivers are steep.
@@ -81,10 +81,11 @@ TEST(Depth, IsTheAffineFunctionThroughTheVertices) {
 // Against a plain loop over samples and triangles, with DepthAt.
 TEST(Depth, NearestWinsAndFirstAtEqualDepth) {
   Random random(22);
-  std::vector<TriangleRecord> records = RandomRecords(random, 40);
+  std::vector<ScreenTriangle> records = RandomRecords(random, 40);
   // Copies at the same depth, and flat ones that coincide.
   for (int i = 0; i < 10; ++i) records.push_back(records[std::size_t(i)]);
-  for (int i = 0; i < 4; ++i) records.push_back(MakeRecord({0, 0}, {15000, 0}, {0, 11000}, 1.25f, 1.25f, 1.25f));
+  for (int i = 0; i < 4; ++i)
+    records.push_back(MakeScreenTriangle({0, 0}, {15000, 0}, {0, 11000}, 1.25f, 1.25f, 1.25f));
   const Submission submission(records);
   for (const Target target : AvailableTargets()) {
     const ScopedTarget scoped(target);
@@ -118,13 +119,13 @@ TEST(Depth, NearestWinsAndFirstAtEqualDepth) {
 
 TEST(Depth, OrderDoesNotMatterWhereDepthsDiffer) {
   Random random(23);
-  const std::vector<TriangleRecord> records = RandomRecords(random, 60);
+  const std::vector<ScreenTriangle> records = RandomRecords(random, 60);
   const Submission forward(records);
   Submission shuffled(records);
   for (std::size_t i = records.size() - 1; i > 0; --i) {
     const std::size_t j = random.Next() % (i + 1);
     std::swap(shuffled.pointers[i], shuffled.pointers[j]);
-    std::swap(shuffled.numbers[i], shuffled.numbers[j]);
+    std::swap(shuffled.ids[i], shuffled.ids[j]);
   }
   ForEachTile(64, 8, [&](TileBuffers& tile) {
     TileBuffers other = tile;
@@ -135,10 +136,10 @@ TEST(Depth, OrderDoesNotMatterWhereDepthsDiffer) {
   });
 }
 
-// The picture's bits depend neither on the tile size nor on the target.
+// The image's bits depend neither on the tile size nor on the target.
 TEST(Depth, BitsDoNotDependOnTilesOrTarget) {
   Random random(24);
-  const std::vector<TriangleRecord> records = RandomRecords(random, 60);
+  const std::vector<ScreenTriangle> records = RandomRecords(random, 60);
   const Submission submission(records);
   std::vector<float> reference;
   std::vector<std::int32_t> reference_record;
@@ -167,7 +168,7 @@ TEST(Depth, BitsDoNotDependOnTilesOrTarget) {
 
 TEST(Fragments, WritingThemIsDrawing) {
   Random random(25);
-  const std::vector<TriangleRecord> records = RandomRecords(random, 50);
+  const std::vector<ScreenTriangle> records = RandomRecords(random, 50);
   const Submission submission(records);
   for (const Target target : AvailableTargets()) {
     const ScopedTarget scoped(target);
@@ -183,7 +184,7 @@ TEST(Fragments, WritingThemIsDrawing) {
             WriteFragment(records[i], fragments.record[k], fragments.pixel[k], fragments.samples[k], written);
           }
         }
-        // Outside of the picture a partial tile's contents mean nothing.
+        // Outside of the image a partial tile's contents mean nothing.
         int wrong = 0;
         for (int y = 0; y < drawn.height; ++y) {
           for (int x = 0; x < drawn.width; ++x) {
@@ -202,7 +203,7 @@ TEST(Fragments, WritingThemIsDrawing) {
 // Fragments that were collected before any of them was written: the nearest stays, the first at equal depth.
 TEST(Fragments, WritingKeepsTheNearestAndTheFirst) {
   Random random(27);
-  std::vector<TriangleRecord> records = RandomRecords(random, 20);
+  std::vector<ScreenTriangle> records = RandomRecords(random, 20);
   for (std::size_t i = 0; i < 20; ++i) records.push_back(records[i]);
   const Submission submission(records);
   ForEachTile(64, 4, [&](TileBuffers& drawn) {
@@ -226,10 +227,10 @@ TEST(Fragments, WritingKeepsTheNearestAndTheFirst) {
 
 TEST(Fragments, CollectingLeavesOutWhatIsHidden) {
   // A near rectangle hides the left half; what is collected behind it lies to the right, at every sample.
-  const std::vector<TriangleRecord> near_half = {MakeRecord({0, 0}, {2048, 0}, {2048, 4096}, 2, 2, 2),
-                                                 MakeRecord({0, 0}, {2048, 4096}, {0, 4096}, 2, 2, 2)};
-  const std::vector<TriangleRecord> behind = {MakeRecord({0, 0}, {4096, 0}, {4096, 4096}, 1, 1, 1),
-                                              MakeRecord({0, 0}, {4096, 4096}, {0, 4096}, 1, 1, 1)};
+  const std::vector<ScreenTriangle> near_half = {MakeScreenTriangle({0, 0}, {2048, 0}, {2048, 4096}, 2, 2, 2),
+                                                 MakeScreenTriangle({0, 0}, {2048, 4096}, {0, 4096}, 2, 2, 2)};
+  const std::vector<ScreenTriangle> behind = {MakeScreenTriangle({0, 0}, {4096, 0}, {4096, 4096}, 1, 1, 1),
+                                              MakeScreenTriangle({0, 0}, {4096, 4096}, {0, 4096}, 1, 1, 1)};
   for (const Target target : AvailableTargets()) {
     const ScopedTarget scoped(target);
     TileBuffers tile = MakeTile(MakeTileGrid(16, 16, 16), 0, 0, 4);
@@ -250,7 +251,7 @@ TEST(Fragments, CollectingLeavesOutWhatIsHidden) {
 
 TEST(Fragments, VisibleOnesPartitionTheSamples) {
   Random random(26);
-  const std::vector<TriangleRecord> records = RandomRecords(random, 60);
+  const std::vector<ScreenTriangle> records = RandomRecords(random, 60);
   const Submission submission(records);
   for (const int samples : kSampleCounts) {
     for (const int tile_size : kTileSizes) {

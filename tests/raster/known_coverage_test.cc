@@ -12,9 +12,9 @@ namespace {
 
 constexpr int kWidth = 150, kHeight = 90;
 
-// Triangles of a few pixels, more than one on many pixels, some at equal depth, across the borders of tiles and picture.
-std::vector<TriangleRecord> Soup(Random& random, int samples, int& known) {
-  std::vector<TriangleRecord> records;
+// Triangles of a few pixels, more than one on many pixels, some at equal depth, across the borders of tiles and image.
+std::vector<ScreenTriangle> Soup(Random& random, int samples, int& known) {
+  std::vector<ScreenTriangle> records;
   for (int i = 0; i < 1500; ++i) {
     const int x = random.Int(-512, (kWidth + 2) * 256), y = random.Int(-512, (kHeight + 2) * 256);
     const int reach = i % 7 == 0 ? 1500 : 300;
@@ -23,7 +23,7 @@ std::vector<TriangleRecord> Soup(Random& random, int samples, int& known) {
     if (DoubleArea(a, b, c) == 0) continue;
     const auto depth = [&] { return i % 3 == 0 ? 0.5f : static_cast<float>(random.Real(0.1, 1.0)); };
     const float za = depth(), zb = depth(), zc = depth();
-    TriangleRecord r = MakeRecord(a, b, c, za, zb, zc);
+    ScreenTriangle r = MakeScreenTriangle(a, b, c, za, zb, zc);
     const SampleCoverage coverage = CoverageOf(r.x_fx8, r.y_fx8, samples);
     if (!coverage.some) continue;
     r.covered = coverage.covered;
@@ -60,10 +60,10 @@ TEST(KnownCoverage, DrawsWhatUnknownCoverageDraws) {
     const ScopedTarget scoped(target);
     for (const int samples : kSampleCounts) {
       int known_count = 0;
-      const std::vector<TriangleRecord> known = Soup(random, samples, known_count);
+      const std::vector<ScreenTriangle> known = Soup(random, samples, known_count);
       EXPECT_GT(known_count, 300);
-      std::vector<TriangleRecord> unknown = known;
-      for (TriangleRecord& r : unknown) r.covered = 0;
+      std::vector<ScreenTriangle> unknown = known;
+      for (ScreenTriangle& r : unknown) r.covered = 0;
       const Submission a(known), b(unknown);
       for (const int tile_size : kTileSizes) {
         SCOPED_TRACE(std::string(TargetName(target)) + ", " + std::to_string(samples) + " samples, tiles of " +

@@ -47,13 +47,13 @@ inline std::int64_t DoubleArea(PointFx8 a, PointFx8 b, PointFx8 c) {
 }
 
 // A record with a depth plane through the three depths. The area must not be 0; the vertices are put in order.
-inline TriangleRecord MakeRecord(PointFx8 a, PointFx8 b, PointFx8 c, float za = 1.0f, float zb = 1.0f,
-                                 float zc = 1.0f) {
+inline ScreenTriangle MakeScreenTriangle(PointFx8 a, PointFx8 b, PointFx8 c, float za = 1.0f, float zb = 1.0f,
+                                         float zc = 1.0f) {
   if (DoubleArea(a, b, c) < 0) std::swap(b, c), std::swap(zb, zc);
   const double scale = 256.0 / static_cast<double>(DoubleArea(a, b, c));
   const double x1 = b.x - a.x, y1 = b.y - a.y, x2 = c.x - a.x, y2 = c.y - a.y;
   const double z1 = double{zb} - za, z2 = double{zc} - za;
-  TriangleRecord r{};
+  ScreenTriangle r{};
   r.x_fx8[0] = a.x, r.x_fx8[1] = b.x, r.x_fx8[2] = c.x;
   r.y_fx8[0] = a.y, r.y_fx8[1] = b.y, r.y_fx8[2] = c.y;
   r.depth_0 = za;
@@ -61,7 +61,7 @@ inline TriangleRecord MakeRecord(PointFx8 a, PointFx8 b, PointFx8 c, float za = 
   r.depth_dy = (z2 * x1 - z1 * x2) * scale;
   r.depth_min = std::min({za, zb, zc});
   r.depth_max = std::max({za, zb, zc});
-  r.kind = RecordKind::Triangle;
+  r.kind = ScreenTriangleKind::Triangle;
   return r;
 }
 
@@ -74,7 +74,7 @@ inline PointFx8 SampleAt(int x, int y, int samples, int s) {
 // Whether the triangle covers the point. The top-left rule as a displacement: the point is moved to the right by an
 // infinitesimal amount and down by an infinitely smaller one; then it lies on no edge, and on the inner side of left
 // and of top edges that it lay on.
-inline bool CoversExactly(const TriangleRecord& r, PointFx8 p) {
+inline bool CoversExactly(const ScreenTriangle& r, PointFx8 p) {
   const PointFx8 v[3] = {{r.x_fx8[0], r.y_fx8[0]}, {r.x_fx8[1], r.y_fx8[1]}, {r.x_fx8[2], r.y_fx8[2]}};
   const std::int64_t orientation = DoubleArea(v[0], v[1], v[2]);
   for (int i = 0; i < 3; ++i) {
@@ -110,20 +110,20 @@ inline TileBuffers MakeTile(const TileGrid& grid, int column, int row, int sampl
 
 // Records in the form that the rasteriser takes, numbered from 0.
 struct Submission {
-  std::vector<const TriangleRecord*> pointers;
-  std::vector<std::int32_t> numbers;
+  std::vector<const ScreenTriangle*> pointers;
+  std::vector<std::int32_t> ids;
 
-  explicit Submission(const std::vector<TriangleRecord>& records) {
-    for (const TriangleRecord& r : records) {
+  explicit Submission(const std::vector<ScreenTriangle>& records) {
+    for (const ScreenTriangle& r : records) {
       pointers.push_back(&r);
-      numbers.push_back(static_cast<std::int32_t>(numbers.size()));
+      ids.push_back(static_cast<std::int32_t>(ids.size()));
     }
   }
-  TileTriangles All() const { return {pointers.data(), numbers.data(), pointers.size()}; }
-  TileTriangles One(std::size_t i) const { return {pointers.data() + i, numbers.data() + i, 1}; }
+  TileTriangles All() const { return {pointers.data(), ids.data(), pointers.size()}; }
+  TileTriangles One(std::size_t i) const { return {pointers.data() + i, ids.data() + i, 1}; }
 };
 
-// How often each sample of a picture is covered; index (y * width + x) * samples + s.
+// How often each sample of an image is covered; index (y * width + x) * samples + s.
 struct CoverageCount {
   int width, height, samples;
   std::vector<int> count;
@@ -139,7 +139,7 @@ struct CoverageCount {
 };
 
 // By RasterCollect over empty tiles. With `turned`, back-facing records count -1.
-inline CoverageCount CountCoverage(const std::vector<TriangleRecord>& records, int width, int height, int tile_size,
+inline CoverageCount CountCoverage(const std::vector<ScreenTriangle>& records, int width, int height, int tile_size,
                                    int samples, bool turned = false) {
   CoverageCount out(width, height, samples);
   const Submission submission(records);
@@ -240,10 +240,11 @@ class Triangulation {
     }
   }
 
-  std::vector<TriangleRecord> Records() const {
-    std::vector<TriangleRecord> records;
+  std::vector<ScreenTriangle> Records() const {
+    std::vector<ScreenTriangle> records;
     for (const auto& t : triangles) {
-      records.push_back(MakeRecord(points[std::size_t(t[0])], points[std::size_t(t[1])], points[std::size_t(t[2])]));
+      records.push_back(
+          MakeScreenTriangle(points[std::size_t(t[0])], points[std::size_t(t[1])], points[std::size_t(t[2])]));
     }
     return records;
   }

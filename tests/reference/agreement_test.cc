@@ -1,4 +1,4 @@
-// The rasterizer and the reference draw the same pictures, up to what the rasterizer approximates.
+// The rasterizer and the reference draw the same images, up to what the rasterizer approximates.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,7 +23,7 @@ ReferenceSettings Effort(int samples, int environment_samples, int batches) {
 class BundledScene : public ::testing::TestWithParam<const char*> {};
 
 // Coverage of eight fixed samples against many random ones: hardly a pixel is off by more than a straight edge can make
-// it, and on average they agree. Light: the means of the pictures agree to a few percent, which is what the split sum
+// it, and on average they agree. Light: the means of the images agree to a few percent, which is what the split sum
 // loses on rough surfaces and one shading a pixel loses of glints; single pixels differ by more.
 TEST_P(BundledScene, CoverageAndMeanLight) {
   const LoadedScene loaded = LoadGltf(std::string(FACET_SOURCE_DIR) + "/assets/scenes/" + GetParam());
@@ -113,7 +113,7 @@ TEST(Agreement, RoughMetalUnderALamp) {
       for (int c = 0; c < 3; ++c) sky.As<float>()[(y * 128 + x) * 3 + c] = lamp ? 40.0f : 0.2f;
     }
   }
-  const auto picture = std::make_shared<const Image>(sky);
+  const auto image = std::make_shared<const Image>(sky);
   for (const auto& [roughness, bound] : {std::pair{0.6f, 0.25}, {0.8f, 0.2}, {1.0f, 0.15}}) {
     Scene scene;
     Material material;
@@ -122,7 +122,7 @@ TEST(Agreement, RoughMetalUnderALamp) {
     Add(scene, Sphere(1.0f, 64, 128), AddMaterial(scene, material));
     RenderSettings settings = Settings(48, 48, 8, Perspective(0.5, {0, 0, 4.5}));
     settings.environment.kind = EnvironmentSettings::Kind::Image;
-    settings.environment.image = picture;
+    settings.environment.image = image;
     const Film film = Render(scene, settings);
     const ReferenceFilm exact = RenderReference(scene, settings, Effort(8, 8, 4));
     double squares = 0.0, mean = 0.0, total = 0.0, n = 0.0;
@@ -152,14 +152,14 @@ TEST(Agreement, TexturedAndBumped) {
   sampler.wrap_u = Wrap::MirroredRepeat;
   sampler.wrap_v = Wrap::ClampToEdge;
   material.base_color_texture = Ref(AddTexture(
-      scene, Picture(4, 4, [](int x, int y) { return glm::u8vec4(60 * x + 60, 60 * y + 60, 128, 255); }), sampler));
+      scene, MakeImage(4, 4, [](int x, int y) { return glm::u8vec4(60 * x + 60, 60 * y + 60, 128, 255); }), sampler));
   material.base_color_texture.scale = {1.5f, 0.75f};
   material.base_color_texture.rotation = 0.4f;
   material.base_color_texture.offset = {0.2f, 0.1f};
   material.normal_texture = Ref(AddTexture(
-      scene, Picture(4, 4, [](int x, int y) { return glm::u8vec4(90 + 20 * x, 170 - 20 * y, 230, 255); }), sampler));
-  material.metallic_roughness_texture = Ref(
-      AddTexture(scene, Picture(2, 2, [](int x, int y) { return glm::u8vec4(0, 255 - 60 * x, 100 + 100 * y, 255); })));
+      scene, MakeImage(4, 4, [](int x, int y) { return glm::u8vec4(90 + 20 * x, 170 - 20 * y, 230, 255); }), sampler));
+  material.metallic_roughness_texture = Ref(AddTexture(
+      scene, MakeImage(2, 2, [](int x, int y) { return glm::u8vec4(0, 255 - 60 * x, 100 + 100 * y, 255); })));
   Primitive p = Rectangle(-1, -1, 1, 1);
   p.colors = {{1, 1, 1, 1}, {0.5f, 1, 1, 1}, {1, 0.5f, 1, 1}, {1, 1, 0.5f, 1}};
   const int index = AddMaterial(scene, material);

@@ -1,4 +1,4 @@
-// Light from all around in double: the same picture as the rasterizer's, and densities that are true.
+// Light from all around in double: the same image as the rasterizer's, and densities that are true.
 #include "reference/environment_exact.h"
 
 #include <gtest/gtest.h>
@@ -49,17 +49,17 @@ glm::dvec3 OnSphere(const glm::dvec2& random) {
   return {around * std::cos(azimuth), y, around * std::sin(azimuth)};
 }
 
-TEST(ExactEnvironment, ReadsThePictureAsTheRasterizerDoes) {
+TEST(ExactEnvironment, ReadsTheImageAsTheRasterizerDoes) {
   const EnvironmentSettings settings = Noise(16, 8);
   const ExactEnvironment environment(settings);
   EnvironmentOptions options;
-  options.keep_picture = true;
+  options.keep_image = true;
   const auto map = PrefilterEnvironment(*settings.image, options);
   const SampleSequence sequence(MixBits(3));
   for (std::uint32_t i = 0; i < 4000; ++i) {
     const glm::dvec3 d = OnSphere(sequence.Point(0, i));
     const auto expected =
-        lanes::SampleEquirectangular<float>(map->picture_data, 16, 8, {float(d.x), float(d.y), float(d.z)});
+        lanes::SampleEquirectangular<float>(map->image_data, 16, 8, {float(d.x), float(d.y), float(d.z)});
     const glm::dvec3 radiance = environment.Toward(d).radiance;
     ASSERT_NEAR(radiance.x, expected.x, 1e-4) << d.x << " " << d.y << " " << d.z;
     ASSERT_NEAR(radiance.y, expected.y, 1e-4);
@@ -67,7 +67,7 @@ TEST(ExactEnvironment, ReadsThePictureAsTheRasterizerDoes) {
   }
 }
 
-TEST(ExactEnvironment, CentreOfThePictureLiesTowardsPlusX) {
+TEST(ExactEnvironment, CentreOfTheImageLiesTowardsPlusX) {
   // One bright column: the third of eight, whose centre is at u = 2.5 / 8, 67.5 degrees before +X about +Y.
   EnvironmentSettings settings = Painted(8, 4, [](int x, int) { return glm::vec3(x == 2 ? 1.0f : 0.0f); });
   const double azimuth = (2.5 / 8.0 - 0.5) * 2.0 * kPi;

@@ -164,7 +164,7 @@ TEST(ExactGeometry, FrontBackAndMirrored) {
   }
 }
 
-// The sphere's silhouette is a circle: its area in the picture.
+// The sphere's silhouette is a circle: its area in the image.
 TEST(ExactGeometry, ASphereCoversItsDisc) {
   const Seen seen(OnePrimitive(Sphere(1.0f, 100, 200)), Orthographic(1.25), 16, 16, false);
   int inside = 0;
@@ -230,7 +230,7 @@ TEST(ExactGeometry, LinesAndPointsAreOnePixelWide) {
   EXPECT_TRUE(points.At({8.5, 7.4}).empty());
 }
 
-TEST(ExactGeometry, WhatIsNotFiniteIsLeftOut) {
+TEST(ExactGeometry, WhatIsNotFiniteIsCulled) {
   Primitive p = Rectangle(-1, -1, 1, 1);
   p.positions[1].x = NAN;  // of the first triangle alone
   const Seen seen(OnePrimitive(p), Orthographic(2.0), 8, 8);

@@ -112,7 +112,7 @@ TEST(ReferenceLight, PointLightFallsOffWithTheSquare) {
     Transform place;
     place.translation = {0.0, 0.0, 1.5};
     AddLight(scene, light, place);
-    // A picture a thousandth of a metre wide: one place.
+    // An image a thousandth of a metre wide: one place.
     const ReferenceFilm film =
         RenderReference(scene, Settings(1, 1, 1, Orthographic(0.0005, {x, 0, 10})), Effort(4, 1, 2));
     const double d2 = x * x + 1.5 * 1.5, cosine = 1.5 / std::sqrt(d2);
@@ -160,7 +160,7 @@ TEST(ReferenceLight, OcclusionDimsTheEnvironmentAndEmissionIsAdded) {
   material.emissive_strength = 2.0f;
   material.occlusion_strength = 0.5f;
   material.occlusion_texture =
-      Ref(AddTexture(scene, Picture(1, 1, [](int, int) { return glm::u8vec4(51, 255, 255, 255); })));
+      Ref(AddTexture(scene, MakeImage(1, 1, [](int, int) { return glm::u8vec4(51, 255, 255, 255); })));
   Add(scene, Rectangle(-1, -1, 1, 1), AddMaterial(scene, material));
   const ReferenceFilm film = RenderReference(scene, settings, Effort(64, 8, 8));
   const double occlusion = 1.0 + 0.5 * (0.2 - 1.0);

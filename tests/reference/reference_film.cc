@@ -1,6 +1,6 @@
-// Writes the reference's picture of a scene, for comparison with other renderers (tests/engines/compare_cycles.py):
+// Writes the reference's image of a scene, for comparison with other renderers (tests/engines/compare_cycles.py):
 //   reference_film IN OUT.exr WIDTH HEIGHT ENVIRONMENT|none SAMPLES BATCHES
-// Through the file's first camera, or facet's own where it has none. Says the relative error that the picture has left.
+// Through the file's first camera, or facet's own where it has none. Says the relative error that the image has left.
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -31,7 +31,7 @@ int main(int argc, char** argv) try {
   effort.samples = std::atoi(argv[6]);
   effort.batches = std::atoi(argv[7]);
   const facet::ReferenceFilm film = facet::RenderReference(loaded.scene, settings, effort);
-  facet::WriteImage(argv[2], facet::Develop(facet::ToFilm(film), {}, facet::ChannelType::F32));
+  facet::WriteImage(argv[2], facet::EncodeFilm(facet::ToFilm(film), {}, facet::ChannelType::F32));
   std::printf("%.3g\n", film.relative_error);
   return 0;
 } catch (const std::exception& error) {

@@ -1,4 +1,4 @@
-// The reference's pictures: coverage, textures and blending in closed form; its error estimate, its bits, its bounds.
+// The reference's images: coverage, textures and blending in closed form; its error estimate, its bits, its bounds.
 #include "reference/reference.h"
 
 #include <gtest/gtest.h>
@@ -102,7 +102,7 @@ TEST(Reference, TexturesAreFilteredBySamples) {
   Sampler sampler;
   sampler.magnification = sampler.minification = Filter::Nearest;
   const Image board =
-      Picture(64, 64, [](int x, int y) { return glm::u8vec4((x + y) & 1 ? 255 : 0, x < 32 ? 188 : 0, 0, 255); });
+      MakeImage(64, 64, [](int x, int y) { return glm::u8vec4((x + y) & 1 ? 255 : 0, x < 32 ? 188 : 0, 0, 255); });
   material.base_color_texture = Ref(AddTexture(scene, board, sampler));
   Add(scene, Rectangle(-1, -1, 1, 1), AddMaterial(scene, material));
   const ReferenceFilm film = RenderReference(scene, Settings(4, 4, 1, Orthographic(1.0)), Effort(1024, 1, 4));
@@ -120,7 +120,7 @@ TEST(Reference, LayersLieOverEachOtherByDepth) {
     material.alpha_cutoff = 0.5f;
     Add(scene, Rectangle(-2, -2, 2, 2, z), AddMaterial(scene, material));
   };
-  const auto picture = [](const Scene& scene) {
+  const auto image = [](const Scene& scene) {
     const ReferenceFilm film = RenderReference(scene, Settings(1, 1, 1, Orthographic(1.0)), Effort(4, 1, 2));
     return film.pixels[0];
   };
@@ -131,13 +131,13 @@ TEST(Reference, LayersLieOverEachOtherByDepth) {
     Scene scene;  // in the file the nearer one comes first
     sheet(scene, 1.0f, {1, 0, 0, 0.25f}, AlphaMode::Blend);
     sheet(scene, 0.0f, {0, 1, 0, 0.5f}, AlphaMode::Blend);
-    EXPECT_TRUE(near4(picture(scene), {0.25, 0.75 * 0.5, 0.0, 1.0 - 0.75 * 0.5}));
+    EXPECT_TRUE(near4(image(scene), {0.25, 0.75 * 0.5, 0.0, 1.0 - 0.75 * 0.5}));
     sheet(scene, -1.0f, {0, 0, 1, 0.1f}, AlphaMode::Opaque);
-    EXPECT_TRUE(near4(picture(scene), {0.25, 0.75 * 0.5, 0.75 * 0.5, 1.0}));
+    EXPECT_TRUE(near4(image(scene), {0.25, 0.75 * 0.5, 0.75 * 0.5, 1.0}));
     sheet(scene, 0.5f, {1, 1, 1, 0.4f}, AlphaMode::Mask);  // cut away
-    EXPECT_TRUE(near4(picture(scene), {0.25, 0.75 * 0.5, 0.75 * 0.5, 1.0}));
+    EXPECT_TRUE(near4(image(scene), {0.25, 0.75 * 0.5, 0.75 * 0.5, 1.0}));
     sheet(scene, 0.5f, {1, 1, 1, 0.6f}, AlphaMode::Mask);  // hides all but the first
-    EXPECT_TRUE(near4(picture(scene), {1.0, 0.75, 0.75, 1.0}));
+    EXPECT_TRUE(near4(image(scene), {1.0, 0.75, 0.75, 1.0}));
   }
   {
     Scene scene;  // all at one depth
@@ -146,7 +146,7 @@ TEST(Reference, LayersLieOverEachOtherByDepth) {
     sheet(scene, 0.0f, {0, 1, 0, 1}, AlphaMode::Opaque);
     sheet(scene, 0.0f, {0, 0, 1, 1}, AlphaMode::Opaque);
     sheet(scene, 0.0f, {0, 0, 0.5f, 0.5f}, AlphaMode::Blend);
-    EXPECT_TRUE(near4(picture(scene), {0.125, 0.25, 0.25, 1.0}));
+    EXPECT_TRUE(near4(image(scene), {0.125, 0.25, 0.25, 1.0}));
   }
 }
 
@@ -168,7 +168,7 @@ TEST(Reference, LinesWithoutNormalsEmit) {
   EXPECT_GT(covered, 1.0);
 }
 
-TEST(Reference, TheEnvironmentBehindThePicture) {
+TEST(Reference, TheEnvironmentBehindTheImage) {
   RenderSettings settings = Settings(4, 2, 1, Perspective(1.0, {0, 0, 0}));
   settings.environment = ConstantEnvironment(0.5f);
   settings.environment.intensity = 3.0;
@@ -178,7 +178,7 @@ TEST(Reference, TheEnvironmentBehindThePicture) {
   }
 }
 
-// Two pictures of other seeds differ as their estimates say.
+// Two images of other seeds differ as their estimates say.
 TEST(Reference, TheErrorEstimateIsHonest) {
   const Scene scene = Balls();
   ReferenceSettings effort = Effort(16, 1, 10);
@@ -262,7 +262,7 @@ TEST(Reference, StopsWhereItIsTold) {
 }
 
 // What there is no time for is left out; what is there is as it would be with all the time there is.
-TEST(Reference, HasAPartOfThePictureWhereThereIsNoTimeForAllOfIt) {
+TEST(Reference, HasAPartOfTheImageWhereThereIsNoTimeForAllOfIt) {
   const Scene scene = Balls();
   const RenderSettings settings = BallSettings(200);  // 169 blocks, most of them with light in them
   ReferenceSettings effort = Effort(1, 1, 2);
@@ -357,7 +357,7 @@ TEST(Reference, RefusesWhatIsOutOfRange) {
   EXPECT_TRUE(refused(bad, {}));
 }
 
-TEST(Reference, BrokenPicturesAndNumbersAreNoted) {
+TEST(Reference, BrokenImagesAndNumbersAreNoted) {
   class Broken final : public ImageSource {
     Image Decode() const override { throw Error(ErrorCode::InvalidInput, "no picture"); }
     std::string Name() const override { return "broken.png"; }

@@ -1,4 +1,4 @@
-// The order of a picture's blocks: each once, and evenly spread from the first on.
+// The order of an image's blocks: each once, and evenly spread from the first on.
 #include "reference/spread_blocks.h"
 
 #include <gtest/gtest.h>
@@ -27,9 +27,9 @@ TEST(SpreadBlocks, CoverEveryPixelOnce) {
   }
 }
 
-// Of 16 x 16 blocks the first 4^k lie in as many different squares of a board that is laid somewhere over the picture,
+// Of 16 x 16 blocks the first 4^k lie in as many different squares of a board that is laid somewhere over the image,
 // whose opposite sides meet.
-TEST(SpreadBlocks, TheFirstOnesLieAllOverThePicture) {
+TEST(SpreadBlocks, TheFirstOnesLieAllOverTheImage) {
   constexpr int kAcross = 16;
   for (const std::uint64_t seed : {0u, 1u, 77u}) {
     const std::vector<PixelBlock> blocks = SpreadBlocks(kAcross * kBlockSide, kAcross * kBlockSide, seed);
@@ -50,7 +50,7 @@ TEST(SpreadBlocks, TheFirstOnesLieAllOverThePicture) {
   }
 }
 
-// Otherwise a mean over the first ones would favour some part of the picture, also where that is no square.
+// Otherwise a mean over the first ones would favour some part of the image, also where that is no square.
 TEST(SpreadBlocks, EachIsAsLikelyAsAnyOther) {
   constexpr int kColumns = 6, kRows = 3, kSeeds = 6000;
   std::map<std::pair<int, int>, int> first, fifth;

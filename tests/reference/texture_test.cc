@@ -16,7 +16,7 @@ double Decode(double s) { return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055)
 
 std::shared_ptr<const Image> Gradient() {
   return std::make_shared<const Image>(
-      Picture(4, 2, [](int x, int y) { return glm::u8vec4(60 * x, 100 * y, 7, 255 - 50 * x); }));
+      MakeImage(4, 2, [](int x, int y) { return glm::u8vec4(60 * x, 100 * y, 7, 255 - 50 * x); }));
 }
 
 Sampler With(Wrap u, Wrap v, Filter filter) {

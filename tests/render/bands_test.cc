@@ -1,4 +1,4 @@
-// Pictures in bands, and the limit of memory.
+// Images in bands, and the limit of memory.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,7 +16,7 @@ LoadedScene Bundled(const std::string& name) {
   return LoadGltf(std::string(FACET_SOURCE_DIR) + "/assets/scenes/" + name);
 }
 
-// The picture put together from bands of at most `max_rows` rows, whose heights are checked.
+// The image put together from bands of at most `max_rows` rows, whose heights are checked.
 Film Joined(const Scene& scene, const RenderSettings& settings, int max_rows, RenderStats* stats = nullptr) {
   const int tile = settings.tile_size;
   const int rows = max_rows >= settings.height ? settings.height : std::max(max_rows / tile, 1) * tile;
@@ -42,7 +42,7 @@ Film Joined(const Scene& scene, const RenderSettings& settings, int max_rows, Re
   return whole;
 }
 
-TEST(Bands, AreThePictureBitForBit) {
+TEST(Bands, AreTheImageBitForBit) {
   for (const char* name : {"showcase.glb", "material_grid.glb", "room.glb", "animated.glb"}) {
     const LoadedScene loaded = Bundled(name);
     for (const int samples : {1, 4}) {
@@ -98,7 +98,7 @@ TEST(Bands, AReceiverCanStop) {
   EXPECT_EQ(calls, 1);
 }
 
-// --- The limit -------------------------------------------------------------------------------------------------------
+// --- The limit ------------------------------------------------------------------------------------------------------
 
 // What Render() says; empty where it draws.
 std::string Refusal(const Scene& scene, const RenderSettings& settings) {
@@ -195,7 +195,7 @@ TEST(MemoryLimit, CountsTheEnvironment) {
   EXPECT_EQ(Refusal(scene, settings), "");
   settings.background = Background::Environment;
   EXPECT_TRUE(Has(Refusal(scene, settings), "17.7 MiB for an environment")) << "the picture is kept as well";
-  // A small picture makes small maps, however large they may be.
+  // A small image makes small maps, however large they may be.
   settings.environment.image = std::make_shared<const Image>(
       Image{64, 32, 3, ChannelType::U8, Encoding::Srgb, std::vector<std::byte>(64 * 32 * 3)});
   settings.environment_size = RenderSettings().environment_size;
@@ -203,7 +203,7 @@ TEST(MemoryLimit, CountsTheEnvironment) {
   EXPECT_EQ(Refusal(scene, settings), "");
 }
 
-TEST(MemoryLimit, NeverChangesThePicture) {
+TEST(MemoryLimit, NeverChangesTheImage) {
   const LoadedScene loaded = Bundled("showcase.glb");
   RenderSettings settings;
   settings.width = settings.height = 64;

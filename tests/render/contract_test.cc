@@ -1,4 +1,4 @@
-// What Render() promises beyond the picture: refusals, warnings, what is decoded, and a shader of one's own.
+// What Render() promises beyond the image: refusals, warnings, what is decoded, and a shader of one's own.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -17,7 +17,7 @@ namespace {
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
-// --- Refusals --------------------------------------------------------------------------------------------------------
+// --- Refusals -------------------------------------------------------------------------------------------------------
 
 TEST(Contract, SettingsOutOfRangeAreRefusedWithTheRange) {
   struct Case {
@@ -130,7 +130,7 @@ TEST(Contract, NumbersThatAreNotFiniteDoNotReachTheFilm) {
   }
 }
 
-TEST(Contract, VerticesThatAreNotFiniteAreLeftOut) {
+TEST(Contract, VerticesThatAreNotFiniteAreCulled) {
   Scene scene;
   const int material = AddMaterial(scene, Unlit(glm::vec4(1.0f)));
   Primitive p = Rectangle(-1, -1, 1, 1);
@@ -146,7 +146,7 @@ TEST(Contract, VerticesThatAreNotFiniteAreLeftOut) {
   EXPECT_EQ(stats.triangles_clipped, 2u);
 }
 
-// --- Images ----------------------------------------------------------------------------------------------------------
+// --- Images ---------------------------------------------------------------------------------------------------------
 
 class CountedSource : public ImageSource {
  public:
@@ -154,7 +154,7 @@ class CountedSource : public ImageSource {
   Image Decode() const override {
     ++calls;
     if (broken_) throw Error(ErrorCode::InvalidInput, "the picture is torn", Name());
-    return Picture(2, 2, [](int, int) { return glm::u8vec4(0, 255, 0, 255); });
+    return MakeImage(2, 2, [](int, int) { return glm::u8vec4(0, 255, 0, 255); });
   }
   std::string Name() const override { return "torn.png"; }
   mutable std::atomic<int> calls{0};
@@ -163,7 +163,7 @@ class CountedSource : public ImageSource {
   bool broken_;
 };
 
-TEST(Contract, APictureThatCannotBeDecodedIsAWarning) {
+TEST(Contract, AnImageThatCannotBeDecodedIsAWarning) {
   const auto source = std::make_shared<CountedSource>(true);
   Scene scene;
   Material material = Unlit({0.25f, 0.5f, 1.0f, 1.0f});
@@ -211,7 +211,7 @@ TEST(Contract, ANormalTextureThatCannotBeDecodedNeedsNoTangents) {
 }
 
 // A source of one's own may hand over nonsense.
-TEST(Contract, APictureWhoseBytesDoNotFitItsSizeIsAWarning) {
+TEST(Contract, AnImageWhoseBytesDoNotFitItsSizeIsAWarning) {
   const std::function<void(Image&)> spoil[] = {
       [](Image& i) { i.bytes.resize(15); },
       [](Image& i) { i.bytes.clear(); },
@@ -223,7 +223,7 @@ TEST(Contract, APictureWhoseBytesDoNotFitItsSizeIsAWarning) {
       [](Image& i) { i.width = i.height = 2000000000; },
   };
   for (const auto& change : spoil) {
-    Image image = Picture(2, 2, [](int, int) { return glm::u8vec4(7); });
+    Image image = MakeImage(2, 2, [](int, int) { return glm::u8vec4(7); });
     change(image);
     Scene scene;
     Material material = Unlit({0.25f, 0.5f, 1.0f, 1.0f});
@@ -268,7 +268,7 @@ TEST(Contract, PicturesOfWhatIsNotVisibleAreNotDecoded) {
       << "normals of what is unlit";
 }
 
-TEST(Contract, APictureInTwoRolesIsDecodedOnce) {
+TEST(Contract, AnImageInTwoRolesIsDecodedOnce) {
   const auto source = std::make_shared<CountedSource>();
   Scene scene;
   Material material;
@@ -285,7 +285,7 @@ TEST(Contract, APictureInTwoRolesIsDecodedOnce) {
   EXPECT_GT(stats.texture_bytes, 0u);
 }
 
-TEST(Contract, ATextureWithoutAPictureIsWhite) {
+TEST(Contract, ATextureWithoutAnImageIsWhite) {
   Scene scene;
   Material material = Unlit({0.25f, 0.5f, 1.0f, 1.0f});
   scene.textures.emplace_back();
@@ -296,7 +296,7 @@ TEST(Contract, ATextureWithoutAPictureIsWhite) {
   }
 }
 
-// --- A shader of one's own -------------------------------------------------------------------------------------------
+// --- A shader of one's own ------------------------------------------------------------------------------------------
 
 class Gradient : public FragmentShader {
  public:
@@ -343,7 +343,7 @@ TEST(Contract, AShaderOfOnesOwnSeesEveryFragment) {
   EXPECT_EQ(stats.fragments_shaded, 1600u);
   EXPECT_GE(shader.calls, 1u);
   for (int y = 0; y < 40; ++y) {
-    for (int x = 0; x < 40; ++x) {  // one anchor square: places count from the picture's corner
+    for (int x = 0; x < 40; ++x) {  // one anchor square: places count from the image's corner
       ASSERT_EQ(film.pixels[std::size_t(y * 40 + x)], glm::vec4(float(x) + 0.5f, float(y) + 0.5f, 0.5f, 1.0f));
     }
   }

@@ -17,9 +17,9 @@ namespace {
 // Keeps in memory, and counts.
 class Source : public EnvironmentSource {
  public:
-  std::shared_ptr<const Image> Picture() const override {
+  std::shared_ptr<const Image> Decode() const override {
     ++decoded;
-    return std::make_shared<const Image>(StudioPicture(64, 32));
+    return std::make_shared<const Image>(StudioImage(64, 32));
   }
   std::shared_ptr<const EnvironmentMap> Find(const EnvironmentOptions& options,
                                              const std::function<void(std::uint64_t)>& admit) const override {
@@ -31,7 +31,7 @@ class Source : public EnvironmentSource {
   }
   std::string Keep(const EnvironmentOptions& options, const EnvironmentMap& map) const override {
     const auto copy = std::make_shared<EnvironmentMap>();
-    PlaceLevels(map.levels[0].size, *copy);
+    AssignLevels(map.levels[0].size, *copy);
     copy->texels = map.texels, copy->texel_data = copy->texels.data();
     kept[options] = copy;
     return "kept";
@@ -57,7 +57,7 @@ class EnvironmentSourceTest : public testing::Test {
 
 TEST_F(EnvironmentSourceTest, DecodesOnlyWhatWasNotKept) {
   RenderSettings plain = settings_;
-  plain.environment.image = source_->Picture();  // comes first
+  plain.environment.image = source_->Decode();  // comes first
   const Digest expected = HashFilm(Render(loaded_.scene, plain));
   EXPECT_EQ(source_->asked, 0);
   source_->decoded = 0;
@@ -100,10 +100,10 @@ TEST_F(EnvironmentSourceTest, CountsAgainstTheMemoryLimit) {
   EXPECT_THROW(Render(loaded_.scene, settings_), Error);
 }
 
-TEST_F(EnvironmentSourceTest, GivesItsPictureToWhoeverNeedsThat) {
-  EXPECT_EQ(PictureOf(settings_.environment)->width, 64);
-  settings_.environment.image = std::make_shared<const Image>(StudioPicture(32, 16));
-  EXPECT_EQ(PictureOf(settings_.environment)->width, 32);
+TEST_F(EnvironmentSourceTest, GivesItsImageToWhoeverNeedsThat) {
+  EXPECT_EQ(ImageOf(settings_.environment)->width, 64);
+  settings_.environment.image = std::make_shared<const Image>(StudioImage(32, 16));
+  EXPECT_EQ(ImageOf(settings_.environment)->width, 32);
 }
 
 }  // namespace

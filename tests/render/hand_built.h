@@ -103,7 +103,7 @@ inline Primitive Sphere(float radius, int rings, int segments) {
   return p;
 }
 
-// Looks along -Z from `eye`; the picture's height spans [-half, half].
+// Looks along -Z from `eye`; the image's height spans [-half, half].
 inline FreeCamera Orthographic(double half, const glm::dvec3& eye = {0, 0, 10}, double aspect = 1.0) {
   FreeCamera camera;
   camera.world_from_camera[3] = glm::dvec4(eye, 1.0);
@@ -134,8 +134,8 @@ inline RenderSettings Settings(int width, int height, int samples, const CameraC
   return settings;
 }
 
-// A picture of 8-bit RGBA texels.
-inline Image Picture(int width, int height, const std::function<glm::u8vec4(int, int)>& texel) {
+// An image of 8-bit RGBA texels.
+inline Image MakeImage(int width, int height, const std::function<glm::u8vec4(int, int)>& texel) {
   Image image;
   image.width = width;
   image.height = height;

@@ -78,7 +78,7 @@ TEST(Host, NoTaskOfTheHostsRunsInsideACall) {
     for (int round = 0; round < 20; ++round) {
       for (int i = 0; i < 50; ++i) group.run([&] { intrusions += inside; });
       inside = true;
-      Develop(film, {});
+      EncodeFilm(film, {});
       Render(loaded.scene, Small(2));
       inside = false;
     }

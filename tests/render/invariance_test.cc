@@ -1,4 +1,4 @@
-// The picture is a function of the scene and the settings alone: not of instruction sets, threads, tiles or the host's
+// The image is a function of the scene and the settings alone: not of instruction sets, threads, tiles or the host's
 // floating-point state.
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ Scene Everything() {
   Scene scene;
   Uniform random(11);
   const auto noise = [&](int alpha) {
-    return Picture(37, 53, [&](int, int) {
+    return MakeImage(37, 53, [&](int, int) {
       return glm::u8vec4(random() * 256, random() * 256, random() * 256, alpha < 0 ? random() * 256 : alpha);
     });
   };
@@ -149,7 +149,7 @@ TEST(InvarianceOfMasks, TileSizesAndOrder) {
   Uniform random(3);
   Material mask = Unlit(glm::vec4(1.0f), AlphaMode::Mask);
   mask.base_color_texture =
-      Ref(AddTexture(scene, Picture(64, 64, [&](int, int) {
+      Ref(AddTexture(scene, MakeImage(64, 64, [&](int, int) {
                        return glm::u8vec4(random() * 256, random() * 256, random() * 256, random() * 256);
                      })));
   const int material = AddMaterial(scene, mask);

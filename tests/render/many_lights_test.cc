@@ -1,4 +1,4 @@
-// Tiles are lit by the lights that reach them, and the picture must not show it: neither where a tile ends, nor that a
+// Tiles are lit by the lights that reach them, and the image must not show it: neither where a tile ends, nor that a
 // light was left out.
 #include <gtest/gtest.h>
 
@@ -37,7 +37,7 @@ Material White() {
   return material;
 }
 
-// Every tile size gives the picture that all lights give. Returns it.
+// Every tile size gives the image that all lights give. Returns it.
 Film ExpectAllLights(const Scene& scene, RenderSettings settings, const std::string& what) {
   const AllLights all;
   settings.shader = &all;

@@ -54,7 +54,7 @@ TEST(FrameMemory, CountsVerticesOfEveryInstance) {
   EXPECT_NE(refusal.find("15.3 MiB for vertices on the screen"), std::string::npos) << refusal;
 }
 
-// Squares that cover the picture, one behind the other, in one primitive.
+// Squares that cover the image, one behind the other, in one primitive.
 Scene Layers(int count, AlphaMode mode) {
   Scene scene;
   Primitive all;
@@ -68,7 +68,7 @@ Scene Layers(int count, AlphaMode mode) {
 }
 
 // Why nothing is seen is found out by going through the geometry once more: that takes the place of the first time.
-TEST(FrameMemory, AnEmptyPictureTakesNoMoreThanAFullOne) {
+TEST(FrameMemory, AnEmptyImageTakesNoMoreThanAFullOne) {
   Scene front = Layers(2000, AlphaMode::Opaque), back = front;
   std::vector<std::uint32_t>& indices = back.meshes[0].primitives[0].indices;
   for (std::size_t i = 0; i + 2 < indices.size(); i += 3) std::swap(indices[i + 1], indices[i + 2]);
@@ -104,7 +104,7 @@ TEST(FrameMemory, CountsTheTrianglesOfATile) {
   constexpr std::size_t kFew = 1 << 14, kMany = 3 << 14;
   const std::uint64_t few = Least(scene(kFew), settings), many = Least(scene(kMany), settings);
   // Positions, vertices on the screen, records; and what a tile has for each beyond what all tiles may have.
-  constexpr std::uint64_t kEach = 3 * (sizeof(glm::vec3) + sizeof(ScreenVertex)) + sizeof(TriangleRecord);
+  constexpr std::uint64_t kEach = 3 * (sizeof(glm::vec3) + sizeof(ScreenVertex)) + sizeof(ScreenTriangle);
   EXPECT_GE(many, few + (kMany - kFew) * (kEach + 40));
 }
 

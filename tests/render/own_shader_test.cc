@@ -13,7 +13,7 @@ namespace {
 
 TextureRef Checks(Scene& scene, int tex_coord) {
   TextureRef ref =
-      Ref(AddTexture(scene, Picture(8, 8, [](int x, int y) {
+      Ref(AddTexture(scene, MakeImage(8, 8, [](int x, int y) {
                        return (x + y) % 2 ? glm::u8vec4(250, 200, 150, 255) : glm::u8vec4(60, 90, 120, 255);
                      })));
   ref.tex_coord = tex_coord;

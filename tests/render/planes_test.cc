@@ -46,7 +46,7 @@ std::string Refusal(const std::function<void()>& act) {
   return "accepted";
 }
 
-// A pixel's least distance over its samples, `distance` being of a point of the picture in pixels.
+// A pixel's least distance over its samples, `distance` being of a point of the image in pixels.
 template <class Distance>
 double LeastDistance(int x, int y, int samples, const Distance& distance) {
   double least = std::numeric_limits<double>::infinity();
@@ -57,14 +57,14 @@ double LeastDistance(int x, int y, int samples, const Distance& distance) {
   return least;
 }
 
-// --- Depth -----------------------------------------------------------------------------------------------------------
+// --- Depth ----------------------------------------------------------------------------------------------------------
 
 TEST(DepthPlane, OfASurfaceThatFacesTheCameraIsItsDistance) {
   Scene scene;
   Add(scene, Rectangle(-0.5f, -10, 10, 10, -2.0f), AddMaterial(scene, Unlit(glm::vec4(1))));
   for (const int samples : {1, 2, 4, 8}) {
     for (const bool perspective : {true, false}) {
-      // The left edge lies at pixel 8 of 32: the picture is 2 wide at the surface.
+      // The left edge lies at pixel 8 of 32: the image is 2 wide at the surface.
       const FreeCamera camera =
           perspective ? Perspective(2.0 * std::atan(0.25), {0, 0, 2}) : Orthographic(1.0, {0, 0, 2});
       const std::vector<float> depths = Depths(scene, Settings(32, 32, samples, camera));
@@ -80,14 +80,14 @@ TEST(DepthPlane, OfASurfaceThatFacesTheCameraIsItsDistance) {
 }
 
 TEST(DepthPlane, OfASlopeIsThatOfTheNearestSample) {
-  // z = 0.5 x + 0.25 y, beyond the picture on all sides.
+  // z = 0.5 x + 0.25 y, beyond the image on all sides.
   Scene scene;
   Primitive slope = Rectangle(-20, -20, 20, 20);
   for (glm::vec3& p : slope.positions) p.z = 0.5f * p.x + 0.25f * p.y;
   slope.normals.clear();
   Add(scene, slope, AddMaterial(scene, Unlit(glm::vec4(1))));
   constexpr int kSize = 48;
-  const auto of_picture = [](double px) { return px / (0.5 * kSize) - 1.0; };
+  const auto of_image = [](double px) { return px / (0.5 * kSize) - 1.0; };
   for (const int samples : {1, 2, 4, 8}) {
     const std::vector<float> flat = Depths(scene, Settings(kSize, kSize, samples, Orthographic(1.0, {0, 0, 10})));
     const double half = std::tan(0.4);
@@ -95,11 +95,11 @@ TEST(DepthPlane, OfASlopeIsThatOfTheNearestSample) {
     for (int y = 0; y < kSize; ++y) {
       for (int x = 0; x < kSize; ++x) {
         const auto orthographic = [&](double px, double py) {
-          return 10.0 - (0.5 * of_picture(px) - 0.25 * of_picture(py));
+          return 10.0 - (0.5 * of_image(px) - 0.25 * of_image(py));
         };
         // The ray (h x, -h y, -1) d from z = 3 meets the slope where 3 - d = d h (0.5 x - 0.25 y).
         const auto perspective = [&](double px, double py) {
-          return 3.0 / (1.0 + half * (0.5 * of_picture(px) - 0.25 * of_picture(py)));
+          return 3.0 / (1.0 + half * (0.5 * of_image(px) - 0.25 * of_image(py)));
         };
         const std::size_t p = std::size_t(y * kSize + x);
         ASSERT_NEAR(flat[p], LeastDistance(x, y, samples, orthographic), 1e-4) << x << " " << y << " " << samples;
@@ -138,7 +138,7 @@ TEST(DepthPlane, AlphaTestedHolesShowWhatIsBehindAndBlendedLayersDoNotShow) {
   nearest.magnification = nearest.minification = Filter::Nearest;
   nearest.mip = MipFilter::None;
   mask.base_color_texture = Ref(AddTexture(
-      scene, Picture(2, 1, [](int x, int) { return glm::u8vec4(255, 255, 255, x == 0 ? 0 : 255); }), nearest));
+      scene, MakeImage(2, 1, [](int x, int) { return glm::u8vec4(255, 255, 255, x == 0 ? 0 : 255); }), nearest));
   Add(scene, Rectangle(-1, -1, 1, 1, -1.0f), AddMaterial(scene, mask));
   Add(scene, Rectangle(-2, -2, 2, 2, 2.0f), AddMaterial(scene, Unlit(glm::vec4(0.5f), AlphaMode::Blend)));
   RenderSettings settings = Settings(32, 32, 4, Orthographic(1.0));
@@ -155,7 +155,7 @@ TEST(DepthPlane, AlphaTestedHolesShowWhatIsBehindAndBlendedLayersDoNotShow) {
   for (const std::uint32_t triangle : film.planes[1].As<std::uint32_t>()) ASSERT_EQ(triangle, kNobody);
 }
 
-// --- Triangle --------------------------------------------------------------------------------------------------------
+// --- Triangle -------------------------------------------------------------------------------------------------------
 
 // A row of four rectangles, the last one first, each of two triangles.
 Primitive Row() {
@@ -219,7 +219,7 @@ TEST(TrianglePlane, CountsPointsAndLinesAndTheClippedAsWholes) {
   }
 }
 
-// --- The request -----------------------------------------------------------------------------------------------------
+// --- The request ----------------------------------------------------------------------------------------------------
 
 TEST(Planes, AreThoseThatWereAskedForInTheirOrder) {
   Scene scene;
@@ -260,7 +260,7 @@ TEST(Planes, ARendererTakesThemUpAndDropsThem) {
   }
 }
 
-TEST(Planes, AreRefusedTwiceUnknownOrOfAPicture) {
+TEST(Planes, AreRefusedTwiceUnknownOrOfAnImage) {
   Scene scene;
   RenderSettings settings = Settings(16, 16, 1, Perspective(1.0, {0, 0, 3}));
   const auto render = [&] { Render(scene, settings); };
@@ -269,8 +269,8 @@ TEST(Planes, AreRefusedTwiceUnknownOrOfAPicture) {
   settings.planes = {static_cast<PlaneKind>(std::size(kPlanes))};
   EXPECT_NE(Refusal(render).find("a plane of kind "), std::string::npos);
   settings.planes = {PlaneKind::Depth};
-  Image picture;
-  const auto develop = [&] { Renderer(scene).RenderPicture(settings, {}, picture); };
+  Image image;
+  const auto develop = [&] { Renderer(scene).RenderImage(settings, {}, image); };
   EXPECT_NE(Refusal(develop).find("planes besides colour of a picture"), std::string::npos);
   settings.planes.clear();
   develop();

@@ -38,7 +38,7 @@ TEST(Renderer, FramesEqualSingleRenderings) {
   settings.height = 50;
   Renderer renderer(loaded.scene);
   Film film;
-  Image picture;
+  Image image;
   const RenderSettings first = settings;
   Digest before{};
   const auto expect_equal = [&](const char* what) {
@@ -49,8 +49,8 @@ TEST(Renderer, FramesEqualSingleRenderings) {
     EXPECT_EQ(ToHex(HashFilm(film)), ToHex(HashFilm(alone))) << what;
     EXPECT_NE(HashFilm(film), before) << what << " changes nothing";
     before = HashFilm(film);
-    renderer.RenderPicture(settings, {}, picture);
-    EXPECT_EQ(ToHex(HashImage(picture)), ToHex(HashImage(Develop(alone, {})))) << what;
+    renderer.RenderImage(settings, {}, image);
+    EXPECT_EQ(ToHex(HashImage(image)), ToHex(HashImage(EncodeFilm(alone, {})))) << what;
   };
   expect_equal("first");
   settings.camera = OrbitCamera{1.0, 1.2, {}, {}, {}};
@@ -86,16 +86,16 @@ TEST(Renderer, FramesEqualSingleRenderings) {
 }
 
 // Of every kind, and of sizes that are no multiple of a tile or of the lanes.
-TEST(Renderer, PicturesAreDevelopedFilms) {
+TEST(Renderer, ImagesAreEncodedFilms) {
   const LoadedScene loaded = LoadGltf(std::string(FACET_SOURCE_DIR) + "/assets/scenes/animated.glb");
   Renderer renderer(loaded.scene);
-  Image picture;
+  Image image;
   RenderSettings settings;
   for (const auto& [width, height] : {std::pair{101, 67}, {64, 64}, {3, 33}}) {
     settings.width = width, settings.height = height;
     for (const int tile_size : {8, 64}) {
       settings.tile_size = tile_size;
-      RenderStats of_film, of_picture;
+      RenderStats of_film, of_image;
       const Film film = Render(loaded.scene, settings, &of_film);
       for (const bool opaque : {false, true}) {
         DisplaySettings display;
@@ -103,31 +103,30 @@ TEST(Renderer, PicturesAreDevelopedFilms) {
         display.exposure_ev = 0.5;
         if (opaque) display.background_srgb = glm::vec3(0.2f, 0.9f, 0.4f);
         for (const ChannelType type : {ChannelType::U8, ChannelType::U16, ChannelType::F32}) {
-          renderer.RenderPicture(settings, display, picture, &of_picture, type);
-          const Image developed = Develop(film, display, type);
-          EXPECT_EQ(picture.width, developed.width);
-          EXPECT_EQ(picture.height, developed.height);
-          EXPECT_EQ(picture.channels, developed.channels);
-          EXPECT_EQ(picture.encoding, developed.encoding);
-          EXPECT_TRUE(picture.bytes == developed.bytes)
-              << width << " " << tile_size << " " << opaque << " " << int(type);
-          EXPECT_EQ(of_picture.covered_pixels, of_film.covered_pixels);
+          renderer.RenderImage(settings, display, image, &of_image, type);
+          const Image encoded = EncodeFilm(film, display, type);
+          EXPECT_EQ(image.width, encoded.width);
+          EXPECT_EQ(image.height, encoded.height);
+          EXPECT_EQ(image.channels, encoded.channels);
+          EXPECT_EQ(image.encoding, encoded.encoding);
+          EXPECT_TRUE(image.bytes == encoded.bytes) << width << " " << tile_size << " " << opaque << " " << int(type);
+          EXPECT_EQ(of_image.covered_pixels, of_film.covered_pixels);
         }
       }
     }
   }
   DisplaySettings wrong;
   wrong.background_srgb = glm::vec3(2.0f);
-  EXPECT_THROW(renderer.RenderPicture(settings, wrong, picture), Error);
+  EXPECT_THROW(renderer.RenderImage(settings, wrong, image), Error);
 }
 
 TEST(Renderer, DecodesOnceAndSaysEachTimeWhatFailed) {
   Scene scene;
   Material material;
   material.base_color_texture =
-      Ref(AddTexture(scene, Picture(4, 4, [](int x, int y) { return glm::u8vec4(60 * x, 60 * y, 128, 255); }), {}));
+      Ref(AddTexture(scene, MakeImage(4, 4, [](int x, int y) { return glm::u8vec4(60 * x, 60 * y, 128, 255); }), {}));
   material.emissive_texture =
-      Ref(AddTexture(scene, Picture(2, 2, [](int x, int y) { return glm::u8vec4(100 * x, 100 * y, 0, 255); }), {}));
+      Ref(AddTexture(scene, MakeImage(2, 2, [](int x, int y) { return glm::u8vec4(100 * x, 100 * y, 0, 255); }), {}));
   material.emissive_factor = {1.0f, 1.0f, 1.0f};
   class Broken final : public ImageSource {
    public:
@@ -154,7 +153,7 @@ TEST(Renderer, DecodesOnceAndSaysEachTimeWhatFailed) {
   EXPECT_EQ(stats.images_decoded, 1u);
 }
 
-// Fails until it is told that the picture is there; counts how often it is asked.
+// Fails until it is told that the image is there; counts how often it is asked.
 class Late final : public ImageSource {
  public:
   explicit Late(bool may_change) : may_change_(may_change) {}
@@ -162,7 +161,7 @@ class Late final : public ImageSource {
   Image Decode() const override {
     ++asked;
     if (!is_there) throw Error(ErrorCode::NotFound, "no such file");
-    return Picture(4, 4, [](int x, int y) { return glm::u8vec4(60 * x, 60 * y, 128, 255); });
+    return MakeImage(4, 4, [](int x, int y) { return glm::u8vec4(60 * x, 60 * y, 128, 255); });
   }
   bool MayChange() const override { return may_change_; }
 
@@ -207,7 +206,7 @@ TEST(Renderer, TriesAgainAFileThatIsThereLater) {
   const std::filesystem::path folder = testing::TempDir() + "facet_late_" + std::to_string(::getpid());
   std::filesystem::create_directory(folder);
   const std::filesystem::path file = folder / "t.png", away = folder / "away.png";
-  WriteImage(file, Picture(4, 4, [](int x, int y) { return glm::u8vec4(60 * x, 60 * y, 128, 255); }));
+  WriteImage(file, MakeImage(4, 4, [](int x, int y) { return glm::u8vec4(60 * x, 60 * y, 128, 255); }));
   std::ofstream(folder / "s.gltf") << R"({"asset":{"version":"2.0"},"nodes":[{"mesh":0}],
       "meshes":[{"primitives":[{"attributes":{"POSITION":0,"TEXCOORD_0":0},"material":0}]}],
       "accessors":[{"componentType":5126,"count":3,"type":"VEC3"}],"images":[{"uri":"t.png"}],"textures":[{"source":0}],
@@ -237,9 +236,8 @@ TEST(Renderer, TriesAgainAFileThatIsThereLater) {
 Scene BumpyBalls() {
   Scene scene;
   Material bumpy;
-  bumpy.normal_texture = Ref(AddTexture(scene, Picture(8, 8, [](int x, int y) {
-                                          return glm::u8vec4(90 + 11 * x, 80 + 13 * y, 230, 255);
-                                        })));
+  bumpy.normal_texture = Ref(
+      AddTexture(scene, MakeImage(8, 8, [](int x, int y) { return glm::u8vec4(90 + 11 * x, 80 + 13 * y, 230, 255); })));
   for (int i = 0; i < 4; ++i) {
     Primitive ball = Sphere(0.8f, i == 1 ? 12 : 9, 12);
     if (i == 3) ball.normals.clear();
@@ -256,17 +254,17 @@ Scene BumpyBalls() {
 }
 
 // Tangents are made when something visible needs them, and kept.
-TEST(Renderer, CompletesGeometryThatIsSeen) {
+TEST(Renderer, MakesTangentsOfGeometryThatIsSeen) {
   const Scene scene = BumpyBalls();
   const auto settings_at = [](double x, double half) {
     RenderSettings settings = Settings(24, 24, 2, Orthographic(half, {x, 0, 10}));
     settings.environment.kind = EnvironmentSettings::Kind::Studio;
     return settings;
   };
-  Scene complete = scene;
+  Scene with_tangents = scene;
   for (std::size_t m = 0; m < 2; ++m) {
-    complete.meshes[m].primitives[0] = Completed(scene.meshes[m].primitives[0], TextureRef());
-    EXPECT_FALSE(complete.meshes[m].primitives[0].tangents.empty());
+    with_tangents.meshes[m].primitives[0] = WithTangents(scene.meshes[m].primitives[0], TextureRef());
+    EXPECT_FALSE(with_tangents.meshes[m].primitives[0].tangents.empty());
   }
   Renderer renderer(scene);
   std::uint64_t bytes = 0;
@@ -275,7 +273,7 @@ TEST(Renderer, CompletesGeometryThatIsSeen) {
     RenderStats stats;
     renderer.Render(settings, film, &stats);
     EXPECT_TRUE(SameBytes(film, Render(scene, settings))) << what;
-    EXPECT_TRUE(SameBytes(film, Render(complete, settings))) << what << ", tangents in the file";
+    EXPECT_TRUE(SameBytes(film, Render(with_tangents, settings))) << what << ", tangents in the file";
     RenderSettings smooth = settings;
     smooth.without = {Feature::NormalTexture};
     EXPECT_EQ(SameBytes(film, Render(scene, smooth)), stats.covered_pixels == 0) << what;
@@ -310,7 +308,7 @@ Digest HashWithTiles(const Scene& scene, RenderSettings settings, int tile_size)
   return HashFilm(Render(scene, settings));
 }
 
-// Rows of the background end with the picture, not with a packet of lanes.
+// Rows of the background end with the image, not with a packet of lanes.
 TEST(Tiles, NeverChangeTheBackground) {
   const LoadedScene loaded = LoadGltf(std::string(FACET_SOURCE_DIR) + "/assets/scenes/animated.glb");
   RenderSettings settings;

@@ -14,8 +14,8 @@ constexpr std::uint32_t kNobody = 0xffffffff;
 
 struct Made {
   TileBuffers tile;
-  std::vector<TriangleRecord> records;
-  std::vector<const TriangleRecord*> pointers;
+  std::vector<ScreenTriangle> records;
+  std::vector<const ScreenTriangle*> pointers;
   FrameView view;
 };
 
@@ -33,7 +33,7 @@ Made RandomTile(int tile_size, int width, int height, int samples, bool perspect
   }
   made.records.resize(50);
   for (std::uint32_t i = 0; i < 50; ++i) made.records[i].primitive = 1000 - i;
-  for (const TriangleRecord& record : made.records) made.pointers.push_back(&record);
+  for (const ScreenTriangle& record : made.records) made.pointers.push_back(&record);
   made.view.perspective = perspective;
   return made;
 }

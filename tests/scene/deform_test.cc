@@ -10,7 +10,7 @@
 namespace facet {
 namespace {
 
-// --- Morph targets ---------------------------------------------------------------------------------------------------
+// --- Morph targets --------------------------------------------------------------------------------------------------
 
 Scene Morphing() {
   Primitive primitive = Triangle();
@@ -77,7 +77,7 @@ TEST(Morph, FlatNormalsForNormalMapsFollowTheMorphedSurface) {
   EXPECT_LT(Distance(normal, glm::normalize(glm::dvec3(-1, -3, 1))), 1e-7);
 }
 
-// --- Skins -----------------------------------------------------------------------------------------------------------
+// --- Skins ----------------------------------------------------------------------------------------------------------
 
 // A bar along +Y from 0 to 2. The lower end follows joint node 1 at the origin, the upper end joint node 2 at
 // (0, 1, 0), the middle both.
@@ -228,7 +228,7 @@ TEST(Skin, GoesAfterMorph) {
   EXPECT_LT(Distance(WorldPosition(posed.drawables[0], 0), {-1, 0, 3}), 1e-6);
 }
 
-// --- Threads ---------------------------------------------------------------------------------------------------------
+// --- Threads --------------------------------------------------------------------------------------------------------
 
 // Large enough for several pieces of work.
 Scene LargeScene() {

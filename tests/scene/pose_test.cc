@@ -178,11 +178,11 @@ TEST(Pose, LeavesCompletionToOthers) {
   scene.meshes[0].weights = {0.5f};
   scene.nodes.push_back(scene.nodes[0]);
 
-  const PosedScene posed = PoseIncomplete(scene, {}), whole = Pose(scene, {});
+  const PosedScene posed = PoseWithoutTangents(scene, {}), whole = Pose(scene, {});
   ASSERT_EQ(posed.drawables.size(), 8u);
-  ASSERT_EQ(posed.incomplete.size(), 1u) << "not what is deformed, or has no normals or no normal map";
-  EXPECT_EQ(posed.incomplete[0].drawables, (std::vector<std::size_t>{0, 4}));
-  EXPECT_EQ(posed.incomplete[0].normal_map.tex_coord, 1);
+  ASSERT_EQ(posed.needs_tangents.size(), 1u) << "not what is deformed, or has no normals or no normal map";
+  EXPECT_EQ(posed.needs_tangents[0].drawables, (std::vector<std::size_t>{0, 4}));
+  EXPECT_EQ(posed.needs_tangents[0].normal_map.tex_coord, 1);
   EXPECT_EQ(posed.drawables[0].geometry, &scene.meshes[0].primitives[0]);
   EXPECT_EQ(posed.drawables[4].geometry, &scene.meshes[0].primitives[0]);
   EXPECT_EQ(posed.drawables[1].geometry->tangents, whole.drawables[1].geometry->tangents);
@@ -200,19 +200,19 @@ TEST(Pose, LeavesCompletionToOthers) {
   }
   EXPECT_EQ(posed.drawables[3].geometry->positions.size(), 3u);
 
-  EXPECT_TRUE(whole.incomplete.empty());
+  EXPECT_TRUE(whole.needs_tangents.empty());
   EXPECT_EQ(whole.drawables[0].geometry, whole.drawables[4].geometry) << "made once";
   const Primitive& expected = *whole.drawables[0].geometry;
-  const Primitive completed = Completed(strip, scene.materials[0].normal_texture);
-  EXPECT_EQ(completed.tangents, expected.tangents);
-  EXPECT_EQ(completed.normals, expected.normals);
-  EXPECT_EQ(completed.indices, expected.indices);
+  const Primitive with_tangents = WithTangents(strip, scene.materials[0].normal_texture);
+  EXPECT_EQ(with_tangents.tangents, expected.tangents);
+  EXPECT_EQ(with_tangents.normals, expected.normals);
+  EXPECT_EQ(with_tangents.indices, expected.indices);
   // Triangle by triangle the same positions: what was cut and binned before names the same triangles after.
-  ASSERT_EQ(PrimitiveCount(completed), PrimitiveCount(strip));
+  ASSERT_EQ(PrimitiveCount(with_tangents), PrimitiveCount(strip));
   for (std::uint32_t t = 0; t < PrimitiveCount(strip); ++t) {
-    const auto before = PrimitiveVertices(strip, t), after = PrimitiveVertices(completed, t);
+    const auto before = PrimitiveVertices(strip, t), after = PrimitiveVertices(with_tangents, t);
     for (std::size_t k = 0; k < 3; ++k) {
-      EXPECT_EQ(completed.positions[after[k]], strip.positions[before[k]]) << t << " " << k;
+      EXPECT_EQ(with_tangents.positions[after[k]], strip.positions[before[k]]) << t << " " << k;
     }
   }
 }
@@ -288,16 +288,16 @@ TEST(Pose, MakesNoTangentsThatNobodyReads) {
                                                      : std::vector<std::uint32_t>{};
     Scene scene = SceneOf(square);
     AddNormalMap(scene);
-    const auto is_completed = [](const Scene& s) {
+    const auto has_tangents = [](const Scene& s) {
       const Primitive* geometry = Pose(s, {}).drawables[0].geometry;
       return geometry != &s.meshes[0].primitives[0];
     };
-    EXPECT_EQ(is_completed(scene), topology >= Topology::Triangles);
+    EXPECT_EQ(has_tangents(scene), topology >= Topology::Triangles);
     scene.materials[0].model = ShadingModel::Unlit;
-    EXPECT_FALSE(is_completed(scene)) << "unlit";
+    EXPECT_FALSE(has_tangents(scene)) << "unlit";
     scene.materials[0].model = ShadingModel::MetallicRoughness;
     scene.textures[0].image = -1;
-    EXPECT_FALSE(is_completed(scene)) << "a texture without image";
+    EXPECT_FALSE(has_tangents(scene)) << "a texture without image";
   }
 }
 
@@ -316,7 +316,7 @@ TEST(Pose, MakesTangentsAnewWhereAsked) {
   EXPECT_EQ(posed.drawables[0].geometry->tangents[0], glm::vec4(1, 0, 0, posed.drawables[0].geometry->tangents[0].w));
 }
 
-TEST(Pose, CompletesWhatNormalMapsNeed) {
+TEST(Pose, MakesTheTangentsThatNormalMapsNeed) {
   Primitive strip;
   strip.topology = Topology::TriangleStrip;
   strip.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 1}};

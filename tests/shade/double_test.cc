@@ -13,11 +13,11 @@
 #include "light/lighting-inl.h"
 #include "material/models/metallic_roughness-inl.h"
 #include "render/hand_built.h"
+#include "shade/attribute_setup.h"
 #include "shade/interpolate-inl.h"
 #include "shade/material_view-inl.h"
 #include "shade/shade_fragments.h"
 #include "shade/shade_in_double.h"
-#include "shade/triangle_setup.h"
 
 namespace facet {
 namespace {
@@ -76,7 +76,7 @@ constexpr Bounds kUntextured = {1e-5, 4};
 // their neighbours as they can be.
 constexpr Bounds kTextured = {5e-5, 512};
 // The narrowest highlight, alpha = 0.002, falls off by up to 2 / alpha = 1000 times the angle: directions that are
-// right to 2e-7 give it to 2e-4, and where it is in the picture it is what the squares add up to. It has textures, too.
+// right to 2e-7 give it to 2e-4, and where it is in the image it is what the squares add up to. It has textures, too.
 constexpr Bounds kHighlight = {5e-4, 64};
 
 void ExpectRounding(const Films& films, const std::string& name, const Bounds& bounds) {
@@ -117,14 +117,14 @@ Scene EverythingTextured() {
   mirrored.wrap_u = Wrap::MirroredRepeat;
   mirrored.wrap_v = Wrap::ClampToEdge;
   Material material;
-  material.base_color_texture = Ref(AddTexture(scene, Picture(64, 64, pattern(0))));
+  material.base_color_texture = Ref(AddTexture(scene, MakeImage(64, 64, pattern(0))));
   material.base_color_texture.rotation = 0.3f;
   material.base_color_texture.scale = {7.0f, 5.0f};
-  material.metallic_roughness_texture = Ref(AddTexture(scene, Picture(32, 16, pattern(9)), mirrored));
-  material.normal_texture = Ref(AddTexture(scene, Picture(33, 21, bumps)));
+  material.metallic_roughness_texture = Ref(AddTexture(scene, MakeImage(32, 16, pattern(9)), mirrored));
+  material.normal_texture = Ref(AddTexture(scene, MakeImage(33, 21, bumps)));
   material.normal_texture.scale = {3.0f, 3.0f};
-  material.occlusion_texture = Ref(AddTexture(scene, Picture(16, 16, pattern(5))));
-  material.emissive_texture = Ref(AddTexture(scene, Picture(8, 8, pattern(3))));
+  material.occlusion_texture = Ref(AddTexture(scene, MakeImage(16, 16, pattern(5))));
+  material.emissive_texture = Ref(AddTexture(scene, MakeImage(8, 8, pattern(3))));
   material.emissive_factor = glm::vec3(0.1f, 0.2f, 0.05f);
   material.double_sided = true;
   const int index = AddMaterial(scene, material);
@@ -189,10 +189,10 @@ Scene TexturedInGroups(int first_group) {
                                &m.occlusion_texture, &m.emissive_texture};
   for (int k = 0; k < 5; ++k) {
     const int size = k < first_group ? 64 : 24;
-    const Image picture = Picture(size, size, [k](int x, int y) {
+    const Image image = MakeImage(size, size, [k](int x, int y) {
       return glm::u8vec4(60 + (x * 37 + k * 50) % 190, 50 + (y * 53 + k * 31) % 200, 90 + (x * y * 7 + k) % 160, 255);
     });
-    *refs[k] = Ref(AddTexture(scene, picture));
+    *refs[k] = Ref(AddTexture(scene, image));
     refs[k]->scale = {9.0f, 4.0f};
   }
   return scene;
@@ -204,10 +204,10 @@ Scene SpotsOfEmission(int base_size) {
   constexpr int kSize = 1024;
   Scene scene = EverythingTextured();
   Material& m = scene.materials[0];
-  m.base_color_texture = Ref(AddTexture(scene, Picture(base_size, base_size, [](int x, int y) {
+  m.base_color_texture = Ref(AddTexture(scene, MakeImage(base_size, base_size, [](int x, int y) {
                                           return glm::u8vec4(60 + x * 37 % 190, 50 + y * 53 % 200, 90, 255);
                                         })));
-  m.emissive_texture = Ref(AddTexture(scene, Picture(kSize, kSize, [](int x, int y) {
+  m.emissive_texture = Ref(AddTexture(scene, MakeImage(kSize, kSize, [](int x, int y) {
                                         const bool lit = x / 32 % 6 == 0 && y / 32 % 5 == 0;
                                         return lit ? glm::u8vec4(250, 30 + x % 32, 99, 255) : glm::u8vec4(0, 0, 0, 255);
                                       })));
@@ -241,7 +241,7 @@ TEST(DoubleShader, UnlitTexelsAndColorsAreTheSameBits) {
   nearest.mip = MipFilter::None;
   Material textured = Unlit(glm::vec4(1.0f));
   textured.base_color_texture = Ref(AddTexture(
-      scene, Picture(5, 5, [](int x, int y) { return glm::u8vec4(40 * x + 7, 30 * y + 11, 17 * (x + y) + 3, 255); }),
+      scene, MakeImage(5, 5, [](int x, int y) { return glm::u8vec4(40 * x + 7, 30 * y + 11, 17 * (x + y) + 3, 255); }),
       nearest));
   Add(scene, Rectangle(-1, -1, 0, 1), AddMaterial(scene, textured));
   Add(scene, Rectangle(0, -1, 1, 0), AddMaterial(scene, Unlit({0.3f, 0.7f, 0.123f, 1.0f})));
@@ -286,7 +286,7 @@ struct Fragments {
       : setup(count),
         x(count),
         y(count),
-        setups(count * std::size_t(SetupLayout::Stride(0))),
+        setups(count * std::size_t(AttributeLayout::Stride(0))),
         red(count),
         green(count),
         blue(count),
@@ -320,13 +320,13 @@ TEST(DoubleShader, GivesTheExactNumberRoundedOnce) {
   Fragments f(kCount);
   std::vector<float> expected(kCount);
   for (std::size_t i = 0; i < kCount; ++i) {
-    float* setup = &f.setups[i * std::size_t(SetupLayout::Stride(0))];
+    float* setup = &f.setups[i * std::size_t(AttributeLayout::Stride(0))];
     f.x[i] = float(random(0, 64)), f.y[i] = float(random(0, 64));
     long double sum = 0, weighted = 0;
     for (int v = 0; v < 3; ++v) {
-      float* plane = setup + SetupLayout::kPlanes + 3 * v;
+      float* plane = setup + AttributeLayout::kPlanes + 3 * v;
       plane[0] = float(random(0, 0.01)), plane[1] = float(random(0, 0.01)), plane[2] = float(random(0.1, 1));
-      float* color = setup + SetupLayout::kColors + 4 * v;
+      float* color = setup + AttributeLayout::kColors + 4 * v;
       for (int c = 0; c < 4; ++c) color[c] = float(random(0.1, 1));
       const long double e = (long double)plane[0] * f.x[i] + (long double)plane[1] * f.y[i] + (long double)plane[2];
       sum += e, weighted += e * color[0];
@@ -355,10 +355,11 @@ TEST(DoubleShader, WhatNoFloatHoldsIsBlackAndCounted) {
   const float largest = std::numeric_limits<float>::max();
   const float reds[3] = {largest, std::numeric_limits<float>::quiet_NaN(), 0.25f};
   for (std::size_t i = 0; i < 16; ++i) {
-    float* setup = &f.setups[i * std::size_t(SetupLayout::Stride(0))];
+    float* setup = &f.setups[i * std::size_t(AttributeLayout::Stride(0))];
     for (int v = 0; v < 3; ++v) {
-      setup[SetupLayout::kPlanes + 3 * v + 2] = 1.0f;
-      for (int c = 0; c < 4; ++c) setup[SetupLayout::kColors + 4 * v + c] = c == 0 ? reds[i % 3] : c == 3 ? 3.0f : 0.5f;
+      setup[AttributeLayout::kPlanes + 3 * v + 2] = 1.0f;
+      for (int c = 0; c < 4; ++c)
+        setup[AttributeLayout::kColors + 4 * v + c] = c == 0 ? reds[i % 3] : c == 3 ? 3.0f : 0.5f;
     }
   }
   for (bool in_double : {true, false}) {
@@ -382,10 +383,10 @@ TEST(DoubleShader, WhatNoFloatHoldsIsBlackAndCounted) {
 TEST(DoubleShader, NegativeZeroOfAlphaIsZero) {
   Fragments f(16);
   for (std::size_t i = 0; i < 16; ++i) {
-    float* setup = &f.setups[i * std::size_t(SetupLayout::Stride(0))];
+    float* setup = &f.setups[i * std::size_t(AttributeLayout::Stride(0))];
     for (int v = 0; v < 3; ++v) {
-      setup[SetupLayout::kPlanes + 3 * v + 2] = 1.0f;
-      setup[SetupLayout::kColors + 4 * v + 3] = -0.0f;
+      setup[AttributeLayout::kPlanes + 3 * v + 2] = 1.0f;
+      setup[AttributeLayout::kColors + 4 * v + 3] = -0.0f;
     }
   }
   MakeDoubleShader()->Shade(f.Task());

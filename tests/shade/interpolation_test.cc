@@ -11,7 +11,7 @@
 namespace facet {
 
 // Position, view, normal, interpolated normal, tangent and handedness, colour, then per UV set uv, duv_dx, duv_dy.
-constexpr int kSurfaceNumbers = 3 + 3 + 3 + 3 + 4 + 4 + 2 * 6;
+constexpr int kSurfaceComponents = 3 + 3 + 3 + 3 + 4 + 4 + 2 * 6;
 
 }  // namespace facet
 #endif
@@ -20,7 +20,7 @@ HWY_BEFORE_NAMESPACE();
 namespace facet {
 namespace HWY_NAMESPACE {
 
-// `out`: kSurfaceNumbers arrays of `stride` numbers.
+// `out`: kSurfaceComponents arrays of `stride` numbers.
 void InterpolateAll(const ShadeTask& task, float* out, std::size_t stride) {
   for (std::size_t i = 0; i < task.count; i += LaneCount()) {
     const Surface<Float> s = InterpolateSurface<Float>(task, i);
@@ -96,17 +96,17 @@ FrameMaterial ReadsEverything() {
 
 // One triangle, seen at the given pixel positions (absolute), all within one anchor square.
 std::vector<Attributes> Interpolate(const FrameView& view, const Drawable& placed, const FrameMaterial& material,
-                                    const TriangleRecord& record, const std::vector<glm::dvec2>& at) {
+                                    const ScreenTriangle& record, const std::vector<glm::dvec2>& at) {
   const int anchor_x = int(std::floor(at[0].x)) & ~63, anchor_y = int(std::floor(at[0].y)) & ~63;
   const FrameDrawable drawable = MakeFrameDrawable(view, placed);
-  std::vector<float> setup(std::size_t(SetupLayout::Stride(material.uv_slots)), -7.0f);
-  TriangleRecord only = record;
+  std::vector<float> setup(std::size_t(AttributeLayout::Stride(material.uv_slots)), -7.0f);
+  ScreenTriangle only = record;
   only.drawable = 0;
-  const TriangleRecord* const records[] = {&only};
-  SetUpTriangles({&view, &drawable, &material, anchor_x, anchor_y, records, 1, setup.data()});
+  const ScreenTriangle* const records[] = {&only};
+  SetUpTriangleAttributes({&view, &drawable, &material, anchor_x, anchor_y, records, 1, setup.data()});
   const std::size_t padded = (at.size() + 15) / 16 * 16;
   std::vector<std::int32_t> setups(padded, 0);
-  std::vector<float> x(padded, 0.0f), y(padded, 0.0f), out(padded * kSurfaceNumbers), first;
+  std::vector<float> x(padded, 0.0f), y(padded, 0.0f), out(padded * kSurfaceComponents), first;
   for (std::size_t i = 0; i < at.size(); ++i) x[i] = float(at[i].x - anchor_x), y[i] = float(at[i].y - anchor_y);
   ShadeTask task;
   task.setup = setups.data();
@@ -123,7 +123,7 @@ std::vector<Attributes> Interpolate(const FrameView& view, const Drawable& place
     std::fill(out.begin(), out.end(), -1.0f);
     InterpolateAllForTarget(target)(task, out.data(), padded);
     if (first.empty()) first = out;
-    for (int k = 0; k < kSurfaceNumbers; ++k) {
+    for (int k = 0; k < kSurfaceComponents; ++k) {
       EXPECT_EQ(std::memcmp(&first[std::size_t(k) * padded], &out[std::size_t(k) * padded], at.size() * sizeof(float)),
                 0)
           << TargetName(target);
@@ -155,7 +155,7 @@ std::vector<Attributes> Interpolate(const FrameView& view, const Drawable& place
 // --- The reference
 // -----------------------------------------------------------------------------------------------------
 
-// Where the ray through a point of the picture meets the plane of a triangle (positions relative to the eye).
+// Where the ray through a point of the image meets the plane of a triangle (positions relative to the eye).
 struct RayCaster {
   glm::dmat3 world_from_camera;
   bool orthographic;
@@ -225,7 +225,7 @@ void CompareWithRays(bool orthographic, unsigned seed) {
       if (b.x > 1e-3 && b.y > 1e-3 && b.z > 1e-3 && (orthographic || distance > 0.0)) at.push_back(pixel);
     }
     if (at.empty()) continue;
-    TriangleRecord record{};
+    ScreenTriangle record{};
     const FrameMaterial material = ReadsEverything();
     const std::vector<Attributes> got = Interpolate(view, placed, material, record, at);
     double extent = 0.0;
@@ -294,7 +294,7 @@ TEST(Interpolation, AFloorToTheHorizon) {
       const double distance = focal / (y + 0.5 - 256.0);
       if (distance > 1.0 && distance < 1900.0) at.push_back({256.5, y + 0.5});
     }
-    const std::vector<Attributes> got = Interpolate(view, placed, ReadsEverything(), TriangleRecord{}, at);
+    const std::vector<Attributes> got = Interpolate(view, placed, ReadsEverything(), ScreenTriangle{}, at);
     for (std::size_t i = 0; i < at.size(); ++i) {
       const double distance = focal / (at[i].y - 256.0);
       ASSERT_NEAR(got[i].uv[1].y / distance, 1.0, 1e-4) << at[i].y;
@@ -318,7 +318,7 @@ TEST(Interpolation, DoesNotDependOnWhereTheWorldsOriginLies) {
     placed.geometry = &p;
     placed.world_from_mesh[3] = glm::dvec4(origin, 1.0);
     const FrameView view = MakeFrameView(CameraAt(origin, {1, 0, 0, 0}, false), 192, 192);
-    results[i] = Interpolate(view, placed, ReadsEverything(), TriangleRecord{}, at);
+    results[i] = Interpolate(view, placed, ReadsEverything(), ScreenTriangle{}, at);
   }
   for (std::size_t i = 0; i < at.size(); ++i)
     EXPECT_EQ(std::memcmp(&results[0][i], &results[1][i], sizeof(Attributes)), 0);
@@ -368,7 +368,7 @@ Primitive TexturedTriangle(bool normals, float handedness) {
 // From both sides and under every transform: normals face the viewer and stand on the plane; tangent and bitangent run
 // along u and v in front, and the whole frame is turned round for the back, so that what a normal map says there is the
 // reverse of the front.
-TEST(SetUpTriangle, FramesUnderTransforms) {
+TEST(SetUpAttributesOfOne, FramesUnderTransforms) {
   for (const Placement& placement : Placements()) {
     for (bool with_normals : {true, false}) {
       for (float handedness : {1.0f, -1.0f}) {
@@ -386,7 +386,7 @@ TEST(SetUpTriangle, FramesUnderTransforms) {
           // Counter-clockwise in the mesh is the front; a mirror turns it round.
           glm::dvec3 front = glm::normalize(glm::cross(e1, e2)) * (placement.mirrored ? -1.0 : 1.0);
           const glm::dvec3 toward_eye = glm::normalize(eye - (world[0] + world[1] + world[2]) / 3.0);
-          TriangleRecord record{};
+          ScreenTriangle record{};
           record.back_facing = glm::dot(front, toward_eye) < 0.0;
           const double side = record.back_facing ? -1.0 : 1.0;
           const Attributes s = Interpolate(view, placed, ReadsEverything(), record, {{32.5, 32.5}})[0];
@@ -412,7 +412,7 @@ TEST(SetUpTriangle, FramesUnderTransforms) {
 // --- Lines and points
 // ------------------------------------------------------------------------------------------------------
 
-TEST(SetUpTriangle, LinesInterpolateBetweenTheirEndsInPerspective) {
+TEST(SetUpAttributesOfOne, LinesInterpolateBetweenTheirEndsInPerspective) {
   const int size = 64;
   const FrameView view = MakeFrameView(CameraAt({0, 0, 0}, {1, 0, 0, 0}, false), size, size);
   Primitive p;
@@ -424,8 +424,8 @@ TEST(SetUpTriangle, LinesInterpolateBetweenTheirEndsInPerspective) {
   p.tangents.assign(2, glm::vec4(1, 0, 0, 1));
   Drawable placed;
   placed.geometry = &p;
-  TriangleRecord record{};
-  record.kind = RecordKind::Line;
+  ScreenTriangle record{};
+  record.kind = ScreenTriangleKind::Line;
   const double focal = size * 0.5 / std::tan(0.5);
   const auto project = [&](const glm::dvec3& v) {
     return glm::dvec2(size * 0.5 + focal * v.x / -v.z, size * 0.5 - focal * v.y / -v.z);
@@ -445,7 +445,7 @@ TEST(SetUpTriangle, LinesInterpolateBetweenTheirEndsInPerspective) {
   }
 }
 
-TEST(SetUpTriangle, PointsHaveTheNumbersOfTheirVertex) {
+TEST(SetUpAttributesOfOne, PointsHaveTheNumbersOfTheirVertex) {
   const FrameView view = MakeFrameView(CameraAt({0, 0, 0}, {1, 0, 0, 0}, false), 64, 64);
   Primitive p;
   p.topology = Topology::Points;
@@ -456,8 +456,8 @@ TEST(SetUpTriangle, PointsHaveTheNumbersOfTheirVertex) {
   p.tangents.assign(2, glm::vec4(1, 0, 0, 1));
   Drawable placed;
   placed.geometry = &p;
-  TriangleRecord record{};
-  record.kind = RecordKind::Point;
+  ScreenTriangle record{};
+  record.kind = ScreenTriangleKind::Point;
   record.primitive = 1;
   for (const glm::dvec2 at : {glm::dvec2(33.5, 28.5), glm::dvec2(10.5, 60.5)}) {
     const Attributes got = Interpolate(view, placed, ReadsEverything(), record, {at})[0];
@@ -468,7 +468,7 @@ TEST(SetUpTriangle, PointsHaveTheNumbersOfTheirVertex) {
   }
 }
 
-TEST(SetUpTriangle, DegenerateTrianglesStayFinite) {
+TEST(SetUpAttributesOfOne, DegenerateTrianglesStayFinite) {
   Uniform random(35);
   const FrameView view = MakeFrameView(CameraAt({0, 0, 0}, {1, 0, 0, 0}, false), 64, 64);
   const glm::vec3 shapes[][3] = {
@@ -485,7 +485,7 @@ TEST(SetUpTriangle, DegenerateTrianglesStayFinite) {
     p.normals.clear();
     Drawable placed;
     placed.geometry = &p;
-    const Attributes got = Interpolate(view, placed, ReadsEverything(), TriangleRecord{}, {{32.5, 32.5}})[0];
+    const Attributes got = Interpolate(view, placed, ReadsEverything(), ScreenTriangle{}, {{32.5, 32.5}})[0];
     for (int c = 0; c < 3; ++c) {
       EXPECT_TRUE(std::isfinite(got.position[c]));
       EXPECT_TRUE(std::isfinite(got.normal[c]));

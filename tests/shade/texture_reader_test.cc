@@ -45,7 +45,7 @@ class EmissionReader {
 
 TEST(TextureReader, DarknessEndsWithThePacket) {
   const TextureData data = Bar();
-  ASSERT_GT(data.dark.width, 0);
+  ASSERT_GT(data.empty_cells.width, 0);
   EmissionReader reader(data);
   reader.MoveTo(0.1f);
   EXPECT_EQ(reader.Alone(), 0.0f);

@@ -23,7 +23,7 @@ const float kMetallic[] = {0.0f, 1e-6f, 0.25f, 0.5f, kBelowOne, 1.0f};
 const float kBaseColors[] = {0.0f, 1e-8f, 0.5f, kBelowOne, 1.0f};
 const float kCosines[] = {1.0f, kBelowOne, 0.99f, 0.5f, 0.1f, 1e-2f, 1e-3f, 1e-4f, 1e-6f, 1e-8f};
 
-const LightingData& DarkLighting() {
+const LightingData& NoLighting() {
   static const LightingData data = MakeLightingData({}, nullptr);
   return data;
 }
@@ -52,7 +52,7 @@ Vec3<T> As(const Vec3<float>& v) {
 
 template <class T>
 T Evaluate(const MaterialInputs<T>& in, const Vec3<float>& view, const Vec3<float>& light) {
-  const LightingView<T> lighting(DarkLighting());
+  const LightingView<T> lighting(NoLighting());
   return lanes::EvaluateClosure(lanes::MakeClosure(in, As<T>(view), lighting), As<T>(light), lighting).y;
 }
 
@@ -113,7 +113,7 @@ Measured MeasureBelowHorizon() {
 // The closure in T, the sum in double.
 template <class T>
 double Albedo(const MaterialInputs<T>& in, float n_dot_v) {
-  const LightingView<T> lighting(DarkLighting());
+  const LightingView<T> lighting(NoLighting());
   const double sin_v = std::sqrt(1.0 - double(n_dot_v) * double(n_dot_v));
   const auto closure = lanes::MakeClosure(in, Vec3<T>{T(sin_v), T(0), T(n_dot_v)}, lighting);
   constexpr int kPolar = 220, kAzimuth = 48;

@@ -72,7 +72,7 @@ CurvePoint Offset(double offset, Measured& m) {
   return point;
 }
 
-// The picture cut into triangles of that many a pixel: each sample is covered once, whatever their number.
+// The image cut into triangles of that many a pixel: each sample is covered once, whatever their number.
 CurvePoint TrianglesPerPixel(double per_pixel, Measured& m) {
   const int n = int(std::lround(kSize * std::sqrt(per_pixel / 2)));  // cells a side, two triangles each
   Scene scene;
@@ -96,7 +96,7 @@ CurvePoint TrianglesPerPixel(double per_pixel, Measured& m) {
   return point;
 }
 
-// Sheets over the whole picture, of alpha 1 / layers: their sum is 1 - (1 - alpha)^layers. Bound of the error: one
+// Sheets over the whole image, of alpha 1 / layers: their sum is 1 - (1 - alpha)^layers. Bound of the error: one
 // rounding of 2^-24 a layer, at most 3000 of them.
 CurvePoint Layers(double layers, Measured& m) {
   Scene scene;
@@ -115,7 +115,7 @@ CurvePoint Layers(double layers, Measured& m) {
 }
 
 // A texture of noise, stretched along one axis until a pixel spans `stretch` texels there and one across. The mean over
-// the picture stays the texture's; 16 taps at most are read, and levels beyond.
+// the image stays the texture's; 16 taps at most are read, and levels beyond.
 CurvePoint Stretch(double stretch, Measured& m) {
   Uniform random(8);
   constexpr int kTexels = 64;

@@ -40,7 +40,7 @@ Measured MeasureExposure() {
   for (const double ev : {-200.0, -60.0, -1.0, 0.0, 1.0, 60.0, 200.0}) {
     DisplaySettings settings;
     settings.exposure_ev = ev;
-    const Image file = Develop(film, settings, ChannelType::F32);
+    const Image file = EncodeFilm(film, settings, ChannelType::F32);
     m.Expect(AllFinite(file), "an exposed number is not finite");
     for (std::size_t i = 0; i < film.pixels.size(); ++i) {
       const double clamped_ev = std::fmax(-126.0, std::fmin(126.0, ev));
@@ -52,7 +52,7 @@ Measured MeasureExposure() {
       settings.tone_map = tone_map;
       Film grey = film;
       for (glm::vec4& p : grey.pixels) p.g = p.b = p.r;
-      const Image bytes = Develop(grey, settings, ChannelType::U8);
+      const Image bytes = EncodeFilm(grey, settings, ChannelType::U8);
       for (std::size_t i = 1; i < grey.pixels.size(); ++i) {
         m.Expect(bytes.As<std::uint8_t>()[4 * i] >= bytes.As<std::uint8_t>()[4 * i - 4],
                  "more light is a darker code with tone curve " + std::to_string(int(tone_map)) + " at " +
@@ -69,7 +69,7 @@ Measured MeasureTinyAlpha() {
   Measured m;
   for (const float alpha : {1.0f, 1e-3f, 1e-10f, 1e-30f, 1e-44f}) {
     const Film film = ValuesFilm(alpha);
-    const Image file = Develop(film, {}, ChannelType::F32);
+    const Image file = EncodeFilm(film, {}, ChannelType::F32);
     m.Expect(AllFinite(file), "an unpremultiplied number is not finite");
     for (std::size_t i = 0; i < film.pixels.size(); ++i) {
       if (film.pixels[i].r < 1e-37f || alpha < 1e-37f) continue;
@@ -83,7 +83,7 @@ Measured MeasureTinyAlpha() {
 // Files of floats hold 32 bits a number: light above 65504, where half floats end, comes back with its bits.
 Measured MeasureFloatFiles() {
   Measured m;
-  const Image image = Develop(ValuesFilm(1.0f), {}, ChannelType::F32);
+  const Image image = EncodeFilm(ValuesFilm(1.0f), {}, ChannelType::F32);
   const TemporaryFolder folder;
   for (const char* name : {"light.exr", "light.tif"}) {
     try {

@@ -197,7 +197,7 @@ EnvironmentSettings EnvironmentOf(const std::function<float(int, int)>& radiance
   return environment;
 }
 
-// A sky with one pixel that is `sun` times brighter: linear, so the sky's picture plus `sun` times the pixel's alone.
+// A sky with one pixel that is `sun` times brighter: linear, so the sky's image plus `sun` times the pixel's alone.
 // Bound: the widest lobes are sums over 64 x 64 texels, rounded term by term: 4096 * 2^-24 of the whole.
 Measured MeasureSun() {
   Measured m;
@@ -271,7 +271,7 @@ Measured MeasureEnvironmentFurnace() {
 // -----------------------------------------------------------------------------------------------------------
 
 // Lit by a point light alone, materials from roughness 0 to 0.045 are one: a highlight of alpha 0.002, the same bits,
-// and it is seen. In an environment they are not: the mirror shows the picture itself.
+// and it is seen. In an environment they are not: the mirror shows the image itself.
 Measured MeasureMirrorUnderPointLight() {
   Measured m;
   const auto draw = [&m](float roughness) {

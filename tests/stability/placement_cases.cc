@@ -24,7 +24,7 @@ Stage MakeStage(double scale, const glm::dvec3& offset) {
   lit.roughness_factor = 0.4f;
   lit.double_sided = true;
   lit.base_color_texture =
-      Ref(AddTexture(stage.scene, Picture(16, 16, [&](int, int) {
+      Ref(AddTexture(stage.scene, MakeImage(16, 16, [&](int, int) {
                        return glm::u8vec4(random() * 256, random() * 256, random() * 256, random() * 256);
                      })));
   Transform place;
@@ -70,7 +70,7 @@ Measured MeasureExactOffsets() {
   return m;
 }
 
-// Offsets in decimals round in double: at 1e9 by 2^-24 of a unit, 6e-8. The picture of 48 pixels shows 2 tan(0.45) * 3
+// Offsets in decimals round in double: at 1e9 by 2^-24 of a unit, 6e-8. The image of 48 pixels shows 2 tan(0.45) * 3
 // = 2.9 units: vertices move by 1e-6 pixel, and 1 / 256 pixel is the grid, so one snapped number in 2000 may go the
 // other way. Of some 800 numbers on the screen none or one does, which changes pixels along one edge; the bound allows
 // one in a hundred.

@@ -26,7 +26,7 @@ bool IsSound(const Film& film) {
 }
 
 bool FileIsFinite(const Film& film) {
-  const Image image = Develop(film, {}, ChannelType::F32);
+  const Image image = EncodeFilm(film, {}, ChannelType::F32);
   const float* numbers = image.As<float>();
   return std::all_of(numbers, numbers + image.PixelCount() * 4, [](float v) { return std::isfinite(v); });
 }
@@ -37,7 +37,7 @@ Film Draw(const Scene& scene, const RenderSettings& settings, Measured& measured
           std::uint64_t non_finite) {
   RenderStats own;
   const Film film = Render(scene, settings, &own);
-  ++measured.pictures;
+  ++measured.images;
   measured.sanitised += own.non_finite_fragments;
   measured.Expect(IsSound(film), "a number of the film is not finite, negative, or an alpha above 1");
   measured.Expect(FileIsFinite(film), "a number of the file is not finite");

@@ -18,7 +18,7 @@ struct Measured {
   double worst = 0.0;                 // largest error that was found, in the case's unit
   std::optional<double> naive;        // the same of the naive formula, where the case computes it beside facet's
   std::vector<std::string> failures;  // promises that were broken, one line each
-  std::uint64_t pictures = 0;         // rendered, each on every instruction set
+  std::uint64_t images = 0;           // rendered, each on every instruction set
   std::uint64_t sanitised = 0;        // fragments that were not finite, replaced and counted
   std::string skipped;                // why the case could not be measured here; empty: it was
 
@@ -84,7 +84,7 @@ std::vector<Curve> AllCurves();
 // --- Rendering
 // ---------------------------------------------------------------------------------------------------------
 
-// Renders, and checks what holds for every picture: each number of the film is finite and not negative, alpha is at
+// Renders, and checks what holds for every image: each number of the film is finite and not negative, alpha is at
 // most 1, bytes and counts are the same on every instruction set, and `non_finite` fragments (none, unless the case
 // says so) were replaced and counted; that the files made of the film are finite too.
 Film Draw(const Scene& scene, const RenderSettings& settings, Measured& measured, RenderStats* stats = nullptr,

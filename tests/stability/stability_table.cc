@@ -39,7 +39,7 @@ double SecondsOf(const std::function<void()>& work) {
 std::string Markdown() {
   std::ostringstream out;
   const char* family = "";
-  std::uint64_t cases = 0, pictures = 0, sanitised = 0;
+  std::uint64_t cases = 0, images = 0, sanitised = 0;
   for (const Case& c : AllCases()) {
     if (std::strcmp(family, c.family) != 0) {
       family = c.family;
@@ -48,13 +48,13 @@ std::string Markdown() {
           << "| of a naive formula | bound | unit |\n|---|---|---|---|---|---|---|\n";
     }
     const Measured m = c.measure();
-    ++cases, pictures += m.pictures, sanitised += m.sanitised;
+    ++cases, images += m.images, sanitised += m.sanitised;
     for (const std::string& failure : m.failures) std::cerr << c.name << ": " << failure << "\n";
     out << RowHead(c) << " " << (m.skipped.empty() ? Figure(m.worst) : "not measured") << " | "
         << (m.naive ? Figure(*m.naive) : "") << " | " << Figure(c.bound) << " | " << c.unit << " |\n";
   }
   out << "\n"
-      << cases << " cases, " << pictures << " pictures on each instruction set; " << sanitised
+      << cases << " cases, " << images << " pictures on each instruction set; " << sanitised
       << " fragments were not finite, became black and were counted, all of them in the\ncase of lights that "
          "overflow.\n";
   out << "\n## Curves\n\nSeconds and memory are those of the machine that wrote this page: all pictures of a point, "

@@ -37,7 +37,7 @@ Sampler SamplerOf(Wrap wrap, MipFilter mip) {
   return sampler;
 }
 
-// A rectangle that fills the picture, unlit, whose UVs go from `low` at its top left to `high` at its bottom right.
+// A rectangle that fills the image, unlit, whose UVs go from `low` at its top left to `high` at its bottom right.
 Scene TexturedRectangle(const Image& image, const Sampler& sampler, const glm::vec2& low, const glm::vec2& high) {
   Scene scene;
   Material material = Unlit({1, 1, 1, 1});

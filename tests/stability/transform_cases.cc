@@ -31,7 +31,7 @@ Scene MakeScene(const Transform& place) {
   Scene scene;
   Uniform random(21);
   const auto noise = [&random](int low) {
-    return Picture(8, 8, [&](int, int) {
+    return MakeImage(8, 8, [&](int, int) {
       return glm::u8vec4(low + random() * (256 - low), low + random() * (256 - low), 255 - random() * 60, 255);
     });
   };
@@ -75,7 +75,7 @@ Measured MeasureSingular() {
   return m;
 }
 
-// A mirrored scene shows the mirrored picture. Bound: coordinates x and width - x round apart by half an ULP each,
+// A mirrored scene shows the mirrored image. Bound: coordinates x and width - x round apart by half an ULP each,
 // which moves a colour by some 1e-6 of itself, and the weights of texels are rounded on another side, by 1/16384; a
 // highlight of alpha 0.09 enlarges this by 2 / alpha.
 Measured MeasureMirrored() {

@@ -12,14 +12,14 @@ constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr int kSize = 64;
 
-// A camera in whose picture one unit is one pixel; (0, 0) is the picture's centre.
+// A camera in whose image one unit is one pixel; (0, 0) is the image's centre.
 RenderSettings PixelSettings(int samples) { return Settings(kSize, kSize, samples, Orthographic(kSize * 0.5)); }
 
 int AddWhite(Scene& scene, AlphaMode mode = AlphaMode::Opaque, float alpha = 1.0f) {
   return AddMaterial(scene, Unlit({1, 1, 1, alpha}, mode));
 }
 
-// A triangle whose corners lie up to 1e6 pixels away and that covers all of the picture; its vertex colours are an
+// A triangle whose corners lie up to 1e6 pixels away and that covers all of the image; its vertex colours are an
 // affine function over the screen. Bound: the weights are floats relative to an anchor within 64 pixels, which lose
 // 2^-24 of their largest number each, three of them: 4 * 2^-23 of full scale.
 Measured MeasureHugeTriangles() {
@@ -50,7 +50,7 @@ Measured MeasureHugeTriangles() {
   return m;
 }
 
-// The picture cut into strips `width` pixels wide, two triangles each. Blended fragments count what is covered: each
+// The image cut into strips `width` pixels wide, two triangles each. Blended fragments count what is covered: each
 // sample once, whatever the width, so `fragments * alpha` never shows twice.
 Measured MeasureSlivers() {
   Measured m;

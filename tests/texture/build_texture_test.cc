@@ -50,7 +50,7 @@ std::array<double, 4> Meaning(const Image& image, TextureRole role, int x, int y
   }
 }
 
-// The mean of the picture over the area of texel (i, j) of a level of m x mh texels: the overlap of intervals, in
+// The mean of the image over the area of texel (i, j) of a level of m x mh texels: the overlap of intervals, in
 // double.
 std::array<double, 4> AreaMean(const std::vector<std::array<double, 4>>& texels, int n, int nh, int m, int mh, int i,
                                int j) {
@@ -123,7 +123,7 @@ TEST(BuildTexture, EveryTexelOfEveryLevelIsTheMeanOverItsArea) {
           }
         }
       }
-      // The mean of the whole picture stays: that of each level in double is that of level 0.
+      // The mean of the whole image stays: that of each level in double is that of level 0.
       std::array<double, 4> mean{}, mean0{};
       for (const auto& t : next)
         for (std::size_t k = 0; k < 4; ++k) mean[k] += t[k] / double(next.size());
@@ -190,27 +190,27 @@ TEST(BuildTexture, BitsAreWhatIsAskedFor) {
   }
 }
 
-// Of all pictures and all that can be asked of them: what is kept is what it is in the whole texture, and takes no more
+// Of all images and all that can be asked of them: what is kept is what it is in the whole texture, and takes no more
 // room than that.
 TEST(BuildTexture, ChannelsThatAreNotReadAreNotKept) {
-  for (int picture_channels = 1; picture_channels <= 4; ++picture_channels) {
-    const Image image = RandomImage(21, 14, picture_channels, ChannelType::U8, 12);
-    const bool grey = picture_channels < 3, has_alpha = picture_channels % 2 == 0;
+  for (int image_channels = 1; image_channels <= 4; ++image_channels) {
+    const Image image = RandomImage(21, 14, image_channels, ChannelType::U8, 12);
+    const bool grey = image_channels < 3, has_alpha = image_channels % 2 == 0;
     for (const TextureRole role : {TextureRole::Color, TextureRole::Data}) {
       const TextureData whole = BuildTexture(image, role, true);
-      EXPECT_EQ(whole.stored, picture_channels);
+      EXPECT_EQ(whole.components, image_channels);
       for (int channels = 1; channels <= kRgba; ++channels) {
         const TextureData part = BuildTexture(image, role, true, TexelBits::Mixed, channels);
         const int colors = std::popcount(unsigned(channels) & kRgb);
         const int numbers = (grey ? std::min(colors, 1) : colors) + ((channels & kA) != 0 && has_alpha ? 1 : 0);
-        ASSERT_EQ(part.stored, std::max(numbers, 1)) << picture_channels << " " << channels;
+        ASSERT_EQ(part.components, std::max(numbers, 1)) << image_channels << " " << channels;
         for (int level = 0; level < part.levels; ++level) {
           for (int y = 0; y < part.level_height[level]; ++y) {
             for (int x = 0; x < part.level_width[level]; ++x) {
               const auto expected = ReadTexel(whole, level, x, y), kept = ReadTexel(part, level, x, y);
               for (std::size_t c = 0; c < 4; ++c) {
                 if ((channels >> c & 1) == 0) continue;
-                ASSERT_EQ(kept[c], expected[c]) << picture_channels << " " << channels << " level " << level;
+                ASSERT_EQ(kept[c], expected[c]) << image_channels << " " << channels << " level " << level;
               }
             }
           }

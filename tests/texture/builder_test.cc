@@ -1,4 +1,4 @@
-// A texture that is built from pieces of a picture is the one that is built from the whole.
+// A texture that is built from pieces of an image is the one that is built from the whole.
 #include <gtest/gtest.h>
 
 #include <random>

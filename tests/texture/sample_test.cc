@@ -109,7 +109,7 @@ class Uniform {
   std::mt19937 random_;
 };
 
-Image Picture8(int width, int height, const std::function<double(int, int, int)>& value) {
+Image Image8(int width, int height, const std::function<double(int, int, int)>& value) {
   Image image;
   image.width = width;
   image.height = height;
@@ -125,7 +125,7 @@ Image Picture8(int width, int height, const std::function<double(int, int, int)>
 
 Image Noise(int width, int height, unsigned seed) {
   Uniform random(seed);
-  return Picture8(width, height, [&](int, int, int) { return random(); });
+  return Image8(width, height, [&](int, int, int) { return random(); });
 }
 
 // --- The reference: wraps and bilinear weights in double
@@ -231,7 +231,7 @@ TEST(SampleTexture, CoordinatesThatAreNotFiniteReadATexel) {
   }
 }
 
-// --- Level of detail -------------------------------------------------------------------------------------------------
+// --- Level of detail ------------------------------------------------------------------------------------------------
 
 // Singular values of [a b; c d], from the characteristic polynomial in long double.
 void SingularValues(double a, double b, double c, double d, double& major, double& minor) {
@@ -305,10 +305,10 @@ double FootprintMean(const std::function<double(double, double)>& f, const Query
 
 constexpr double kTau = 6.283185307179586;
 
-// A smooth picture of waves of at most 1/8 of the texture's frequency limit: what a pixel shows must be near the true
+// A smooth image of waves of at most 1/8 of the texture's frequency limit: what a pixel shows must be near the true
 // mean over it, whichever way the footprint is stretched. Trilinear filtering blurs more than a box does; the bounds
 // are those of that blur: the box of a level twice as coarse.
-TEST(SampleTexture, SmoothPicturesAreAveragedOverTheFootprint) {
+TEST(SampleTexture, SmoothImagesAreAveragedOverTheFootprint) {
   Uniform random(8);
   const int sizes[][2] = {{128, 128}, {256, 64}};
   for (const auto& size : sizes) {
@@ -317,7 +317,7 @@ TEST(SampleTexture, SmoothPicturesAreAveragedOverTheFootprint) {
       return 0.5 + 0.2 * std::sin(kTau * (3 * u + 2 * v)) + 0.2 * std::cos(kTau * (4 * v - u));
     };
     const TextureData data = BuildTexture(
-        Picture8(width, height, [&](int x, int y, int) { return wave((x + 0.5) / width, (y + 0.5) / height); }),
+        Image8(width, height, [&](int x, int y, int) { return wave((x + 0.5) / width, (y + 0.5) / height); }),
         TextureRole::Data, true);
     BoundTexture slot;
     slot.data = &data;
@@ -338,7 +338,7 @@ TEST(SampleTexture, SmoothPicturesAreAveragedOverTheFootprint) {
       worst = std::max(worst, error);
       // Waves have |f''| <= 0.2 (2 pi)^2 (13 + 17); a tent of one level and the next instead of a box has a variance
       // that is larger by less than (2 level texels)^2 / 4; half of that times f'' is what the blur can change, plus
-      // the picture's 8 bits and bilinear interpolation at level 0.
+      // the image's 8 bits and bilinear interpolation at level 0.
       const double texel_u = std::exp2(std::max(answers[i].lod, 0.0)) / std::min(width, height);
       const double bound = 0.5 * 0.2 * kTau * kTau * 30.0 * texel_u * texel_u + 4e-3;
       ASSERT_LE(error, bound) << i << " lod " << answers[i].lod << " taps " << answers[i].taps;
@@ -350,13 +350,13 @@ TEST(SampleTexture, SmoothPicturesAreAveragedOverTheFootprint) {
 // A checkerboard of single texels: where a pixel covers many, it must be grey, in all directions.
 TEST(SampleTexture, MinifiedPatternsDoNotAlias) {
   const TextureData checker =
-      BuildTexture(Picture8(256, 256, [](int x, int y, int) { return double((x + y) & 1); }), TextureRole::Data, true);
+      BuildTexture(Image8(256, 256, [](int x, int y, int) { return double((x + y) & 1); }), TextureRole::Data, true);
   const TextureData zone =
-      BuildTexture(Picture8(256, 256,
-                            [](int x, int y, int) {
-                              const double dx = x - 127.5, dy = y - 127.5;  // frequency reaches the limit at the border
-                              return 0.5 + 0.5 * std::cos(3.14159265358979 * (dx * dx + dy * dy) / 256.0);
-                            }),
+      BuildTexture(Image8(256, 256,
+                          [](int x, int y, int) {
+                            const double dx = x - 127.5, dy = y - 127.5;  // frequency reaches the limit at the border
+                            return 0.5 + 0.5 * std::cos(3.14159265358979 * (dx * dx + dy * dy) / 256.0);
+                          }),
                    TextureRole::Data, true);
   Uniform random(9);
   for (const TextureData* data : {&checker, &zone}) {
@@ -411,7 +411,7 @@ TEST(SampleTexture, ConstantsAreExact) {
   Uniform random(16);
   for (const TexelBits bits : {TexelBits::Eight, TexelBits::Sixteen}) {
     for (int code = 0; code < 256; code += 3) {
-      const Image image = Picture8(24, 16, [&](int, int, int c) { return (c % 2 == 0 ? code : 255 - code) / 255.0; });
+      const Image image = Image8(24, 16, [&](int, int, int c) { return (c % 2 == 0 ? code : 255 - code) / 255.0; });
       const TextureData data = BuildTexture(image, TextureRole::Data, true, bits);
       BoundTexture slot;
       slot.data = &data;
@@ -504,7 +504,7 @@ TEST(SetTransform, IsTranslationTimesRotationTimesScale) {
   }
 }
 
-TEST(SetTransform, QuarterTurnsAreCounterClockwiseOnThePicture) {
+TEST(SetTransform, QuarterTurnsAreCounterClockwiseOnTheImage) {
   // A quarter turn with v down: what lay at u = 1 on the top edge, (1, 0), is read from (0, -1): one texture height up.
   TextureRef ref;
   ref.rotation = 1.5707963267948966f;

@@ -262,12 +262,12 @@ TEST(OutsideView, AgreesWithTheVertices) {
     for (const ScreenVertex& v : Transform(s)) common &= v.outcode;
     s.drawable.geometry = &s.mesh;
     const FrameView view = MakeFrameView(s.camera, s.width, s.height);
-    const bool left_out = OutsideView(view, MakeFrameDrawable(view, s.drawable), box);
-    if (left_out) {
+    const bool culled = OutsideView(view, MakeFrameDrawable(view, s.drawable), box);
+    if (culled) {
       EXPECT_NE(common & (kOutNear | kOutFar | kOutLeft | kOutRight | kOutTop | kOutBottom), 0);
     }
-    outside += left_out;
-    missed += !left_out && common != 0;
+    outside += culled;
+    missed += !culled && common != 0;
   }
   EXPECT_GT(outside, 300) << "the test shows nothing";
   EXPECT_LT(missed, 10);

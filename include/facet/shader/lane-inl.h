@@ -38,7 +38,7 @@ inline constexpr std::size_t kMaxLanes = HWY_MAX_BYTES / sizeof(float) < 1 ? 1 :
 // Default construction leaves lanes uninitialised, as for float; Float{} is zero. (A user-provided constructor would be
 // called from the implicit constructors of structs of lanes, which GCC compiles for the baseline instruction set.)
 
-// --- Types -------------------------------------------------------------------------------------------------------------
+// --- Types ----------------------------------------------------------------------------------------------------------
 
 struct Mask {
   using Raw = hn::Mask<FloatTag>;
@@ -79,7 +79,7 @@ using MaskOf = typename LaneTraits<T>::MaskType;
 template <class T>
 using RequireScalar = std::enable_if_t<std::is_floating_point_v<T>, int>;
 
-// --- Float --------------------------------------------------------------------------------------------------------------
+// --- Float ----------------------------------------------------------------------------------------------------------
 
 HWY_INLINE Float operator+(Float a, Float b) { return hn::Add(a.raw, b.raw); }
 HWY_INLINE Float operator-(Float a, Float b) { return hn::Sub(a.raw, b.raw); }
@@ -115,7 +115,7 @@ HWY_INLINE Float RoundEven(Float a) { return hn::Round(a.raw); }  // ties to eve
 #endif
 HWY_INLINE Float CopySign(Float magnitude, Float sign) { return hn::CopySign(magnitude.raw, sign.raw); }
 
-// --- Int ----------------------------------------------------------------------------------------------------------------
+// --- Int ------------------------------------------------------------------------------------------------------------
 
 HWY_INLINE Int operator+(Int a, Int b) { return hn::Add(a.raw, b.raw); }
 HWY_INLINE Int operator-(Int a, Int b) { return hn::Sub(a.raw, b.raw); }
@@ -146,7 +146,7 @@ HWY_INLINE Int TruncateToInt(Float a) { return hn::ConvertTo(IntTag(), a.raw); }
 HWY_INLINE Int BitsOf(Float a) { return hn::BitCast(IntTag(), a.raw); }
 HWY_INLINE Float FloatFromBits(Int a) { return hn::BitCast(FloatTag(), a.raw); }
 
-// --- Mask ---------------------------------------------------------------------------------------------------------------
+// --- Mask -----------------------------------------------------------------------------------------------------------
 
 HWY_INLINE Mask operator&(Mask a, Mask b) { return hn::And(a.raw, b.raw); }
 HWY_INLINE Mask operator|(Mask a, Mask b) { return hn::Or(a.raw, b.raw); }
@@ -163,7 +163,7 @@ HWY_INLINE std::uint32_t BitsOf(Mask a) {
   return result;
 }
 
-// --- Memory -------------------------------------------------------------------------------------------------------------
+// --- Memory ---------------------------------------------------------------------------------------------------------
 
 HWY_INLINE Float LoadFloat(const float* p) { return hn::LoadU(FloatTag(), p); }
 HWY_INLINE Int LoadInt(const std::int32_t* p) { return hn::LoadU(IntTag(), p); }
@@ -175,7 +175,7 @@ HWY_INLINE Int Gather(const std::int32_t* p, Int index) { return hn::GatherIndex
 // 0, 1, 2 ...
 HWY_INLINE Int LaneIndex() { return hn::Iota(IntTag(), 0); }
 
-// --- The same for float and double, selection for integers too ---------------------------------------------------------
+// --- The same for float and double, selection for integers too ------------------------------------------------------
 
 template <class T, std::enable_if_t<std::is_arithmetic_v<T>, int> = 0>
 HWY_INLINE T Select(bool m, T a, T b) { return m ? a : b; }

@@ -29,7 +29,7 @@ struct IntTraits<Float> {
 template <class T>
 using IntOf = typename IntTraits<T>::Type;
 
-// --- The scalar integers, corresponding to Int ----- -----------------------------------------------------------------
+// --- The scalar integers, corresponding to Int ----- ----------------------------------------------------------------
 
 HWY_INLINE std::int32_t Select(bool m, std::int32_t a, std::int32_t b) { return m ? a : b; }
 HWY_INLINE std::int32_t Min(std::int32_t a, std::int32_t b) { return a < b ? a : b; }
@@ -61,7 +61,7 @@ HWY_INLINE T FromInt(IntOf<T> a) {
   }
 }
 
-// --- Memory ----------------------------------------------------------------------------------------------------------
+// --- Memory ---------------------------------------------------------------------------------------------------------
 
 // Loads the value at p, or one for each lane from p on.
 template <class T>

@@ -1,4 +1,4 @@
-// The plane `depth`: how far away what is seen is, along the camera's axis.
+// The plane `depth`: distance along the camera's axis.
 #pragma once
 
 #include <limits>
@@ -7,8 +7,8 @@
 
 namespace facet {
 
-// Of the depths by which visibility was decided, so that whoever compares them finds what is seen: 1 / depth, rounded
-// as IEEE 754 has it, with a perspective camera, and -depth (0 without a sign) with an orthographic one.
+// Computed from the depth of the depth test, so that comparing distances agrees with visibility: 1 / depth, by IEEE 754's
+// division, for a perspective camera, and -depth (0 without a sign) for an orthographic one.
 inline void WriteDepth(const PlaneTile& t) {
   constexpr float kNothing = std::numeric_limits<float>::infinity();
   const float* depth = t.tile.depth.data();

@@ -1,4 +1,4 @@
-// One tile of one plane, as the function that writes it sees it.
+// One tile of one plane, as its function receives it.
 #pragma once
 
 #include <bit>
@@ -15,19 +15,19 @@ inline constexpr std::int32_t kNoSample = -1;
 
 struct PlaneTile {
   const TileBuffers& tile;
-  const TriangleRecord* const* records;  // by their numbers in tile.record
+  const ScreenTriangle* const* records;  // by their ids in tile.record
   const FrameView& view;
-  const FrameDrawable* drawables;  // by TriangleRecord::drawable
-  // Where each pixel's nearest sample stands in tile.depth and tile.record, tile_size a row; kNoSample: nothing is
-  // there.
+  const FrameDrawable* drawables;  // by ScreenTriangle::drawable
+  // For each pixel, tile_size a row: the index of its nearest sample in tile.depth and tile.record; kNoSample: none is
+  // covered.
   const std::int32_t* nearest;
   std::byte* out;          // of the tile's top left pixel
   std::size_t out_stride;  // bytes from one row of the plane to the next
 
-  const TriangleRecord& RecordAt(std::size_t sample) const { return *records[tile.record[sample]]; }
+  const ScreenTriangle& RecordAt(std::size_t sample) const { return *records[tile.record[sample]]; }
 };
 
-// Writes each pixel of the tile: value(sample) of its nearest sample, or `nothing`.
+// Writes to each pixel of the tile value(index of its nearest sample), or `nothing`.
 template <class T, class Value>
 void WritePixels(const PlaneTile& t, const T& nothing, const Value& value) {
   static_assert(std::endian::native == std::endian::little, "planes are little-endian");

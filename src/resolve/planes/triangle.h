@@ -1,4 +1,4 @@
-// The plane `triangle`: which triangle, line or point of its primitive is seen.
+// The plane `triangle`: the index of the visible triangle, line or point in its primitive.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 namespace facet {
 
-// Pieces of what was clipped or widened have the number of the whole.
+// Pieces of a clipped triangle, or of a line that was widened to triangles, have the index of the whole.
 inline void WriteTriangle(const PlaneTile& t) {
   constexpr std::uint32_t kNothing = 0xffffffff;
   WritePixels(t, kNothing, [&t](std::size_t sample) { return t.RecordAt(sample).primitive; });

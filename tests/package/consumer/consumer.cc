@@ -45,7 +45,7 @@ int main() {
       for (int c = 0; c < 4; ++c) wrong += std::fabs(pixel[c] - expected[c]) > 1e-6f;
     }
   }
-  const facet::Image image = facet::Develop(film, {});
+  const facet::Image image = facet::EncodeFilm(film, {});
   std::printf("covered %llu pixels, %d wrong channels, developed %dx%dx%d\n",
               static_cast<unsigned long long>(stats.covered_pixels), wrong, image.width, image.height, image.channels);
   return wrong == 0 && stats.covered_pixels == 32 * 32 && image.channels == 4 ? 0 : 1;

@@ -33,10 +33,10 @@ std::vector<int> Numbers(const Image& image) {
 }
 
 std::vector<int> Bytes(const Film& film, const DisplaySettings& settings) {
-  return Numbers<std::uint8_t>(Develop(film, settings, ChannelType::U8));
+  return Numbers<std::uint8_t>(EncodeFilm(film, settings, ChannelType::U8));
 }
 
-// A picture with everything in it that could go wrong.
+// An image with everything in it that could go wrong.
 Film WildFilm(int width, int height) {
   Film film{width, height, {}};
   std::mt19937 random(5);
@@ -54,7 +54,7 @@ Film WildFilm(int width, int height) {
 }
 
 // Whole packets of empty pixels are not computed: what stands there is what a single empty pixel becomes.
-TEST(Develop, EmptyPixelsAreWhatEachIsAlone) {
+TEST(EncodeFilm, EmptyPixelsAreWhatEachIsAlone) {
   Film film{203, 1, {}};
   for (int i = 0; i < 203; ++i) {
     const bool seen = i / 40 % 2 == 1 && i % 7 != 0;
@@ -67,10 +67,10 @@ TEST(Develop, EmptyPixelsAreWhatEachIsAlone) {
     for (const ToneMap map : {ToneMap::None, ToneMap::Neutral, ToneMap::AgX}) {
       for (const auto& background : backgrounds) {
         for (const ChannelType type : {ChannelType::U8, ChannelType::U16, ChannelType::F32}) {
-          const Image all = Develop(film, Display(map, 1.0, background), type);
+          const Image all = EncodeFilm(film, Display(map, 1.0, background), type);
           const std::size_t size = all.bytes.size() / 203;
           for (std::size_t i = 0; i < 203; ++i) {
-            const Image one = Develop(OnePixel(film.pixels[i]), Display(map, 1.0, background), type);
+            const Image one = EncodeFilm(OnePixel(film.pixels[i]), Display(map, 1.0, background), type);
             ASSERT_EQ(std::memcmp(all.bytes.data() + i * size, one.bytes.data(), size), 0)
                 << TargetName(target) << ", pixel " << i;
           }
@@ -80,7 +80,7 @@ TEST(Develop, EmptyPixelsAreWhatEachIsAlone) {
   }
 }
 
-TEST(Develop, CodesOfABytePictureSurvive) {
+TEST(EncodeFilm, CodesOfAByteImageSurvive) {
   Film film{256, 1, {}};
   for (const float light : Srgb8ToLinearTable()) film.pixels.push_back({light, light, light, 1.0f});
   const std::vector<int> bytes = Bytes(film, Display(ToneMap::None));
@@ -90,10 +90,10 @@ TEST(Develop, CodesOfABytePictureSurvive) {
   }
 }
 
-TEST(Develop, EveryCodeIsTheNearest) {
+TEST(EncodeFilm, EveryCodeIsTheNearest) {
   const Film film = WildFilm(301, 97);
-  const Image bytes = Develop(film, Display(ToneMap::None), ChannelType::U8);
-  const Image words = Develop(film, Display(ToneMap::None), ChannelType::U16);
+  const Image bytes = EncodeFilm(film, Display(ToneMap::None), ChannelType::U8);
+  const Image words = EncodeFilm(film, Display(ToneMap::None), ChannelType::U16);
   for (std::size_t i = 0; i < film.pixels.size(); ++i) {
     const glm::vec4 p = film.pixels[i];
     const bool finite = std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z) && std::isfinite(p.w);
@@ -110,14 +110,14 @@ TEST(Develop, EveryCodeIsTheNearest) {
   }
 }
 
-TEST(Develop, AlphaIsStraight) {
+TEST(EncodeFilm, AlphaIsStraight) {
   // Half-covered light of 0.5: the colour in the file is that of 0.5.
   const std::vector<int> bytes = Bytes(OnePixel({0.25f, 0.25f, 0.25f, 0.5f}), Display(ToneMap::None));
   EXPECT_EQ(bytes, (std::vector<int>{188, 188, 188, 128}));
   EXPECT_EQ(Bytes(OnePixel({0.0f, 0.0f, 0.0f, 0.0f}), Display(ToneMap::AgX)), (std::vector<int>{0, 0, 0, 0}));
 }
 
-TEST(Develop, BackgroundIsExactForEveryToneMapAndExposure) {
+TEST(EncodeFilm, BackgroundIsExactForEveryToneMapAndExposure) {
   for (const ToneMap tone_map : {ToneMap::None, ToneMap::Reinhard, ToneMap::Aces, ToneMap::AgX, ToneMap::Neutral}) {
     for (const double exposure : {-3.0, 0.0, 5.0}) {
       for (int code = 0; code < 256; ++code) {
@@ -129,7 +129,7 @@ TEST(Develop, BackgroundIsExactForEveryToneMapAndExposure) {
   }
 }
 
-TEST(Develop, BackgroundIsMixedInDisplayLinearLight) {
+TEST(EncodeFilm, BackgroundIsMixedInDisplayLinearLight) {
   // Black over half of white: 0.5 in linear light, which is code 188.
   EXPECT_EQ(Bytes(OnePixel({0, 0, 0, 0.5f}), Display(ToneMap::Reinhard, 0.0, glm::vec3(1.0f))),
             (std::vector<int>{188, 188, 188}));
@@ -138,10 +138,10 @@ TEST(Develop, BackgroundIsMixedInDisplayLinearLight) {
             (std::vector<int>{207, 207, 207}));
 }
 
-TEST(Develop, ExposureIsInStops) {
+TEST(EncodeFilm, ExposureIsInStops) {
   EXPECT_EQ(Bytes(OnePixel({0.05f, 0.1f, 0.2f, 1.0f}), Display(ToneMap::Neutral, 2.0)),
             Bytes(OnePixel({0.2f, 0.4f, 0.8f, 1.0f}), Display(ToneMap::Neutral)));
-  const Image image = Develop(OnePixel({1.0f, 2.0f, 4.0f, 1.0f}), Display(ToneMap::Aces, -1.0), ChannelType::F32);
+  const Image image = EncodeFilm(OnePixel({1.0f, 2.0f, 4.0f, 1.0f}), Display(ToneMap::Aces, -1.0), ChannelType::F32);
   EXPECT_EQ(image.encoding, Encoding::Linear);
   ASSERT_EQ(image.channels, 4);
   EXPECT_EQ(image.As<float>()[0], 0.5f);
@@ -150,16 +150,16 @@ TEST(Develop, ExposureIsInStops) {
   EXPECT_EQ(image.As<float>()[3], 1.0f);
 }
 
-TEST(Develop, FloatPicturesHaveTheBackgroundInLinearLight) {
+TEST(EncodeFilm, FloatImagesHaveTheBackgroundInLinearLight) {
   const auto settings = Display(ToneMap::Aces, 1.0, glm::vec3(1.0f, 0.0f, 0.5f));
-  const Image image = Develop(OnePixel({0.5f, 0.5f, 0.5f, 0.5f}), settings, ChannelType::F32);
+  const Image image = EncodeFilm(OnePixel({0.5f, 0.5f, 0.5f, 0.5f}), settings, ChannelType::F32);
   ASSERT_EQ(image.channels, 3);
   EXPECT_EQ(image.As<float>()[0], 1.5f);
   EXPECT_EQ(image.As<float>()[1], 1.0f);
   EXPECT_FLOAT_EQ(image.As<float>()[2], 1.0f + 0.5f * 0.21404114f);
 }
 
-TEST(Develop, WhatIsNotFiniteIsEmpty) {
+TEST(EncodeFilm, WhatIsNotFiniteIsEmpty) {
   for (const float bad : {NAN, HUGE_VALF, -HUGE_VALF}) {
     for (int channel = 0; channel < 4; ++channel) {
       glm::vec4 pixel(0.5f, 0.5f, 0.5f, 1.0f);
@@ -170,11 +170,11 @@ TEST(Develop, WhatIsNotFiniteIsEmpty) {
   // What overflows on the way does not become a hole.
   EXPECT_EQ(Bytes(OnePixel({3e38f, 0.0f, 0.0f, 1e-3f}), Display(ToneMap::None, 100.0)),
             (std::vector<int>{255, 0, 0, 0}));
-  const Image image = Develop(OnePixel({3e38f, 0, 0, 0.5f}), Display(ToneMap::None, 100.0), ChannelType::F32);
+  const Image image = EncodeFilm(OnePixel({3e38f, 0, 0, 0.5f}), Display(ToneMap::None, 100.0), ChannelType::F32);
   EXPECT_EQ(image.As<float>()[0], std::numeric_limits<float>::max());
 }
 
-TEST(Develop, SameBytesOnEveryTargetAndThreadCount) {
+TEST(EncodeFilm, SameBytesOnEveryTargetAndThreadCount) {
   const Film film = WildFilm(131, 127);  // two tasks, the last with a rest of a vector
   for (const ToneMap tone_map : {ToneMap::None, ToneMap::Reinhard, ToneMap::Aces, ToneMap::AgX, ToneMap::Neutral}) {
     for (const ChannelType type : {ChannelType::U8, ChannelType::U16, ChannelType::F32}) {
@@ -187,7 +187,7 @@ TEST(Develop, SameBytesOnEveryTargetAndThreadCount) {
           const ScopedTarget scoped(target);
           for (const int threads : {1, 3}) {
             RunWithThreads(threads, [&] {
-              const Image image = Develop(film, settings, type);
+              const Image image = EncodeFilm(film, settings, type);
               if (expected.empty()) expected = image.bytes;
               EXPECT_TRUE(image.bytes == expected) << TargetName(target) << ", " << threads << " threads";
             });
@@ -198,11 +198,11 @@ TEST(Develop, SameBytesOnEveryTargetAndThreadCount) {
   }
 }
 
-TEST(Develop, RefusesSettingsThatMeanNothing) {
-  EXPECT_THROW(Develop(OnePixel({}), Display(ToneMap::None, NAN)), Error);
-  EXPECT_THROW(Develop(OnePixel({}), Display(ToneMap::None, 0.0, glm::vec3(1.5f, 0.0f, 0.0f))), Error);
-  EXPECT_THROW(Develop(Film{2, 2, {}}, Display(ToneMap::None)), Error);
-  const Image empty = Develop(Film{}, Display(ToneMap::None));
+TEST(EncodeFilm, RefusesSettingsThatMeanNothing) {
+  EXPECT_THROW(EncodeFilm(OnePixel({}), Display(ToneMap::None, NAN)), Error);
+  EXPECT_THROW(EncodeFilm(OnePixel({}), Display(ToneMap::None, 0.0, glm::vec3(1.5f, 0.0f, 0.0f))), Error);
+  EXPECT_THROW(EncodeFilm(Film{2, 2, {}}, Display(ToneMap::None)), Error);
+  const Image empty = EncodeFilm(Film{}, Display(ToneMap::None));
   EXPECT_EQ(empty.bytes.size(), 0u);
 }
 

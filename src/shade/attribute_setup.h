@@ -9,7 +9,7 @@ namespace facet {
 // The layout of one triangle's attribute setup: indices of its floats. Each attribute has three vertices one after the
 // other. Lanes read four floats at a time, of which the fourth may belong to the next item. World axes; positions are
 // relative to the eye; normals, tangents and handedness are flipped to the viewer's side.
-struct SetupLayout {
+struct AttributeLayout {
   // Perspective-correct weights: e_i(x, y) = plane[3 i] * x + plane[3 i + 1] * y + plane[3 i + 2], with x and y in
   // pixels from the anchor; barycentric weight i is e_i / (e_0 + e_1 + e_2).
   static constexpr int kPlanes = 0;
@@ -25,15 +25,15 @@ struct SetupLayout {
 };
 
 // Screen triangles of one material whose attributes are to be set up for the fragments of a tile.
-struct SetupTask {
+struct AttributeSetupTask {
   const FrameView* view = nullptr;
-  const FrameDrawable* drawables = nullptr;      // by TriangleRecord::drawable
+  const FrameDrawable* drawables = nullptr;      // by ScreenTriangle::drawable
   const Primitive* const* attributes = nullptr;  // likewise: the geometry, with what the material reads of it
   const FrameMaterial* material = nullptr;
   int anchor_x = 0, anchor_y = 0;  // pixels
-  const TriangleRecord* const* records = nullptr;
+  const ScreenTriangle* const* records = nullptr;
   std::size_t count = 0;
-  float* setups = nullptr;  // out: SetupLayout::Stride() floats each, in the order of the records
+  float* setups = nullptr;  // out: AttributeLayout::Stride() floats each, in the order of the records
 };
 
 // Sets up the attributes that the material reads. A triangle's setup does not depend on the other triangles.
@@ -41,6 +41,6 @@ struct SetupTask {
 // The weights come from the inverse of the matrix of the vertices in homogeneous screen space (Olano and Greer 1997,
 // "Triangle Scan Conversion using 2D Homogeneous Coordinates"), so that triangles need not be clipped. They are
 // computed in double from the unsnapped positions.
-void SetUpTriangles(const SetupTask& task);
+void SetUpTriangleAttributes(const AttributeSetupTask& task);
 
 }  // namespace facet

@@ -1,4 +1,4 @@
-// Pictures that show nothing, or nothing but black, say why.
+// Images that show nothing, or nothing but black, say why.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -33,7 +33,7 @@ struct Empty {
   const char* reason;  // a part of the warning
 };
 
-std::vector<Empty> EmptyPictures() {
+std::vector<Empty> EmptyImages() {
   std::vector<Empty> cases;
   const auto add = [&](const char* name, const RenderSettings& settings, const char* reason, const auto& make) {
     Scene scene;
@@ -99,8 +99,8 @@ std::vector<Empty> EmptyPictures() {
   return cases;
 }
 
-TEST(PictureWarnings, EmptyPicturesSayWhy) {
-  for (const Empty& empty : EmptyPictures()) {
+TEST(ImageWarnings, EmptyImagesSayWhy) {
+  for (const Empty& empty : EmptyImages()) {
     const std::vector<std::string> warnings = WarningsOf(empty.scene, empty.settings);
     ASSERT_EQ(warnings.size(), 1u) << empty.name;
     EXPECT_EQ(warnings[0].rfind("nothing is visible: ", 0), 0u) << warnings[0];
@@ -108,7 +108,7 @@ TEST(PictureWarnings, EmptyPicturesSayWhy) {
   }
 }
 
-TEST(PictureWarnings, TheBackgroundIsNoPartOfTheScene) {
+TEST(ImageWarnings, TheBackgroundIsNoPartOfTheScene) {
   Scene scene;
   RenderSettings settings = From(Orthographic(1.0));
   settings.environment = ConstantEnvironment(1.0f);
@@ -116,7 +116,7 @@ TEST(PictureWarnings, TheBackgroundIsNoPartOfTheScene) {
   EXPECT_EQ(WarningsOf(scene, settings).size(), 1u);
 }
 
-TEST(PictureWarnings, WhatShowsAnythingIsSilent) {
+TEST(ImageWarnings, WhatShowsAnythingIsSilent) {
   Scene scene;
   Add(scene, Rectangle(-0.01f, -0.01f, 0.1f, 0.1f), AddMaterial(scene, OneSided()));
   Transform turned;
@@ -134,7 +134,7 @@ TEST(PictureWarnings, WhatShowsAnythingIsSilent) {
   EXPECT_TRUE(SameBytes(film, Render(scene, From(Orthographic(1.0)))));
 }
 
-TEST(PictureWarnings, LightlessPicturesSayWhy) {
+TEST(ImageWarnings, UnlitImagesSayWhy) {
   Scene scene;
   const int material = AddMaterial(scene, Material());
   Add(scene, Rectangle(-0.5f, -0.5f, 0.5f, 0.5f), material);

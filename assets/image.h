@@ -1,4 +1,4 @@
-// Procedural pictures: periodic noise, and pictures filled by a function.
+// Procedural images: periodic noise, and images filled by a function.
 #pragma once
 
 #include <array>
@@ -26,8 +26,9 @@ Vec3 Mix(Vec3 a, Vec3 b, double t);
 
 // An 8-bit PNG of size x size pixels. `color`(u, v) gives 3 or 4 numbers in [0, 1] as the file shall hold them; (u, v)
 // is the pixel's centre in [0, 1].
-std::vector<std::uint8_t> Picture(int size, const std::function<Vec3(double, double)>& color);
-std::vector<std::uint8_t> PictureWithAlpha(int size, const std::function<std::array<double, 4>(double, double)>& color);
+std::vector<std::uint8_t> PngImage(int size, const std::function<Vec3(double, double)>& color);
+std::vector<std::uint8_t> PngImageWithAlpha(int size,
+                                            const std::function<std::array<double, 4>(double, double)>& color);
 // The tangent-space normal map (+Y up) of a height field that repeats; height and (u, v) in the same unit.
 std::vector<std::uint8_t> NormalMap(int size, const std::function<double(double, double)>& height);
 

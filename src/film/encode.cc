@@ -7,7 +7,7 @@
 #include "base/parallel.h"
 #include "facet/error.h"
 #include "facet/film.h"
-#include "film/develop_pixels.h"
+#include "film/encode_pixels.h"
 #include "film/hash_film.h"
 #include "math/elementary.h"
 
@@ -32,9 +32,9 @@ float LinearBackground(float encoded) {
 
 }  // namespace
 
-DevelopTask MakeDevelopTask(const DisplaySettings& settings, ChannelType type) {
+EncodeTask MakeEncodeTask(const DisplaySettings& settings, ChannelType type) {
   const FloatEnvironment pinned;
-  DevelopTask task;
+  EncodeTask task;
   task.type = type;
   task.tone_map = settings.tone_map;
   task.exposure = ExposureFactor(settings.exposure_ev);
@@ -50,7 +50,7 @@ DevelopTask MakeDevelopTask(const DisplaySettings& settings, ChannelType type) {
   return task;
 }
 
-void SizeForTask(const DevelopTask& task, int width, int height, Image& image) {
+void SizeForTask(const EncodeTask& task, int width, int height, Image& image) {
   image.width = width;
   image.height = height;
   image.channels = task.opaque ? 3 : 4;
@@ -62,19 +62,19 @@ void SizeForTask(const DevelopTask& task, int width, int height, Image& image) {
   image.bytes.resize(bytes);
 }
 
-Image Develop(const Film& film, const DisplaySettings& settings, ChannelType type) {
+Image EncodeFilm(const Film& film, const DisplaySettings& settings, ChannelType type) {
   const FloatEnvironment pinned;
   CheckFilm(film);
-  const DevelopTask whole = MakeDevelopTask(settings, type);
+  const EncodeTask whole = MakeEncodeTask(settings, type);
   Image image;
   SizeForTask(whole, film.width, film.height, image);
   constexpr std::size_t kPixelsPerTask = 16384;
   ParallelFor(image.PixelCount(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
-    DevelopTask task = whole;
+    EncodeTask task = whole;
     task.pixels = &film.pixels[begin].x;
     task.count = end - begin;
     task.out = image.bytes.data() + begin * whole.PixelBytes();
-    DevelopPixels(task);
+    EncodePixels(task);
   });
   return image;
 }

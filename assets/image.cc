@@ -1,4 +1,4 @@
-#include "picture.h"
+#include "image.h"
 
 #include <algorithm>
 #include <cmath>
@@ -71,7 +71,7 @@ double Fractal(Vec3 p, int octaves, double gain, int seed) {
   return sum;
 }
 
-std::vector<std::uint8_t> Picture(int size, const std::function<Vec3(double, double)>& color) {
+std::vector<std::uint8_t> PngImage(int size, const std::function<Vec3(double, double)>& color) {
   std::vector<std::uint8_t> pixels;
   for (int y = 0; y < size; ++y) {
     for (int x = 0; x < size; ++x) {
@@ -82,8 +82,8 @@ std::vector<std::uint8_t> Picture(int size, const std::function<Vec3(double, dou
   return EncodePng(size, size, 3, pixels);
 }
 
-std::vector<std::uint8_t> PictureWithAlpha(int size,
-                                           const std::function<std::array<double, 4>(double, double)>& color) {
+std::vector<std::uint8_t> PngImageWithAlpha(int size,
+                                            const std::function<std::array<double, 4>(double, double)>& color) {
   std::vector<std::uint8_t> pixels;
   for (int y = 0; y < size; ++y) {
     for (int x = 0; x < size; ++x) {
@@ -95,7 +95,7 @@ std::vector<std::uint8_t> PictureWithAlpha(int size,
 
 std::vector<std::uint8_t> NormalMap(int size, const std::function<double(double, double)>& height) {
   const double h = 1.0 / size;
-  return Picture(size, [&](double u, double v) {
+  return PngImage(size, [&](double u, double v) {
     const double du = (height(u + h, v) - height(u - h, v)) / (2 * h);
     const double dv = (height(u, v + h) - height(u, v - h)) / (2 * h);
     const Vec3 normal = Normalize({-du, dv, 1});  // v points down, the map's green channel up

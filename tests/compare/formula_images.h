@@ -1,4 +1,4 @@
-// Pictures made by integer arithmetic, so that every program makes the same bits.
+// Images made by integer arithmetic, so that every program makes the same bits.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +23,7 @@ inline Image Blank(int width, int height, int channels, ChannelType type, Encodi
 
 // Gradients under a checkerboard; the test has noise on its right half, blue on its lower left quarter and a thin green
 // line.
-inline Image BytePicture(int width, int height, bool test) {
+inline Image ByteImage(int width, int height, bool test) {
   Image image = Blank(width, height, 3, ChannelType::U8);
   std::uint8_t* out = image.As<std::uint8_t>();
   for (int y = 0; y < height; ++y) {
@@ -43,8 +43,8 @@ inline Image BytePicture(int width, int height, bool test) {
 
 // The same as linear light, (code + 1) / 64, in columns of one stop each from -4 to 5; the test has one very bright
 // pixel.
-inline Image FloatPicture(int width, int height, bool test) {
-  const Image bytes = BytePicture(width, height, test);
+inline Image FloatImage(int width, int height, bool test) {
+  const Image bytes = ByteImage(width, height, test);
   Image image = Blank(width, height, 3, ChannelType::F32, Encoding::Linear);
   float* out = image.As<float>();
   const std::uint8_t* in = bytes.As<std::uint8_t>();

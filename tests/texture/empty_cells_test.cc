@@ -31,7 +31,7 @@ TextureData Emission(const Image& image, bool emission, TexelBits bits = TexelBi
 
 // Whatever is sampled: a sample that is called dark is black to the last bit, however near the light is, and samples in
 // the middle of nothing are called so.
-TEST(DarkCells, AreWhereSamplesAreBlack) {
+TEST(EmptyCells, AreWhereSamplesAreBlack) {
   std::mt19937 random(3);
   const auto uniform = [&](double low, double high) {
     return static_cast<float>(std::uniform_real_distribution<double>(low, high)(random));
@@ -54,7 +54,7 @@ TEST(DarkCells, AreWhereSamplesAreBlack) {
               dx{uniform(-size, size), uniform(-size, size)}, dy{uniform(-size, size), uniform(-size, size)};
           lanes::TextureTaps<float> taps;
           lanes::MakeTextureTaps(slot, uv, dx, dy, taps);
-          if (!lanes::IsDark(slot, taps)) {
+          if (!lanes::IsEmpty(slot, taps)) {
             ++lit;
             continue;
           }
@@ -71,17 +71,17 @@ TEST(DarkCells, AreWhereSamplesAreBlack) {
   EXPECT_GT(lit, 10000);
 }
 
-TEST(DarkCells, AreNotLookedForInOtherTextures) {
+TEST(EmptyCells, AreNotLookedForInOtherTextures) {
   const TextureData data = Emission(BlackBut(256, 256, {{3, 4}}), false);
-  EXPECT_EQ(data.dark.width, 0);
+  EXPECT_EQ(data.empty_cells.width, 0);
   BoundTexture slot;
   slot.data = &data;
   lanes::TextureTaps<float> taps;
   lanes::MakeTextureTaps<float>(slot, {0.5f, 0.5f}, {0.001f, 0.0f}, {0.0f, 0.001f}, taps);
-  EXPECT_FALSE(lanes::IsDark(slot, taps));
+  EXPECT_FALSE(lanes::IsEmpty(slot, taps));
 }
 
-// Small pictures, large ones, whose memory is taken as it is written, and those whose rows begin with light.
+// Small images, large ones, whose memory is taken as it is written, and those whose rows begin with light.
 TEST(SparseTextures, AreTheOthersTexelByTexel) {
   for (const auto& [width, height] : {std::pair{37, 22}, {300, 200}, {1030, 1100}}) {
     Image image = BlackBut(width, height, {{0, 5}, {0, height - 1}, {width - 1, 7}, {width / 2, height / 2}, {17, 9}});

@@ -1,4 +1,4 @@
-#include "render/picture_warnings.h"
+#include "render/image_warnings.h"
 
 #include <algorithm>
 
@@ -21,7 +21,7 @@ std::string WhyNothingIsDrawn(const Scene& scene, const RenderSettings& settings
                    : "no node has a mesh; is it the right file?";
 }
 
-// Of a box of which nothing is in the view.
+// Where a box is that lies completely outside of the view.
 std::string WhereOutside(const FrameView& view, const Bounds& box) {
   if (box.empty) return "no vertex has a finite position; is the file whole?";
   double nearest = view.far_distance, farthest = -nearest;
@@ -61,7 +61,7 @@ std::string WhyNothingIsVisible(const Scene& scene, const PosedScene& posed, con
   for (PlannedMaterial& material : two_sided.materials) material.frame.features |= kDoubleSided;
   RenderStats unused;
   try {
-    MemoryBudget again(settings.memory_limit);  // it takes the place of what the frame was drawn from
+    MemoryBudget again(settings.memory_limit);  // it replaces the geometry of the frame
     const MemoryBudget::Scope scope(again);
     RunGeometry(view, posed, two_sided, grid, settings.samples, geometry, unused);
   } catch (const Error& error) {
@@ -87,13 +87,13 @@ std::string WhyNothingIsLit(const FramePlan& plan, const std::vector<bool>& mate
   if (any_light || environment_shines) return {};
   const auto asked_out = [&](Feature feature) { return settings.without.Has(feature); };
   if (asked_out(Feature::EnvironmentLight) || asked_out(Feature::PunctualLights)) return {};
-  bool any_dark = false;
+  bool any_unlit = false;
   for (std::size_t m = 0; m < plan.materials.size(); ++m) {
     const FrameMaterial& material = plan.materials[m].frame;
     const bool reads_none = material.shader != nullptr && material.shader->Light() == LightUse::None;
-    any_dark = any_dark || (material_visible[m] && material.Has(kLit) && !material.Has(kEmission) && !reads_none);
+    any_unlit = any_unlit || (material_visible[m] && material.Has(kLit) && !material.Has(kEmission) && !reads_none);
   }
-  if (!any_dark) return {};
+  if (!any_unlit) return {};
   const bool has_environment = settings.environment.kind != EnvironmentSettings::Kind::None;
   return std::string("nothing lights the picture: ") +
          (has_environment ? "the environment's intensity is 0" : "there is no environment") +

@@ -1,11 +1,11 @@
-#include "shade/triangle_setup.h"
+#include "shade/attribute_setup.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "shade/triangle_setup.cc"
+#define HWY_TARGET_INCLUDE "shade/attribute_setup.cc"
 #include "hwy/foreach_target.h"
 // Must come after foreach_target.h.
 #include "facet/shader/dispatch.h"
@@ -17,7 +17,7 @@ HWY_BEFORE_NAMESPACE();
 namespace facet {
 namespace HWY_NAMESPACE {
 
-// --- Lanes of doubles, one for each of several triangles --------------------------------------------------------------
+// --- Lanes of doubles, one for each of several triangles ------------------------------------------------------------
 
 using DoubleTag = hn::ScalableTag<double>;
 using HalfTag = hn::Rebind<float, DoubleTag>;
@@ -62,30 +62,32 @@ HWY_INLINE void StoreRounded(Double a, float* p) {
 
 using Point = Vec3<Double>;
 
-// --- Inputs and outputs of a group of triangles ------------------------------------------------------------------------
+// --- Inputs and outputs of a group of triangles ---------------------------------------------------------------------
 
 // One component of each triangle of a group.
-using Numbers = float[kMaxDoubles];
+using LaneFloats = float[kMaxDoubles];
 
 // A three-component attribute of all vertices.
 struct Corners {
-  alignas(64) Numbers numbers[9];
+  alignas(64) LaneFloats components[9];
   HWY_INLINE void Set(std::size_t lane, int corner, const float* xyz) {
-    for (int c = 0; c < 3; ++c) numbers[3 * corner + c][lane] = xyz[c];
+    for (int c = 0; c < 3; ++c) components[3 * corner + c][lane] = xyz[c];
   }
   HWY_INLINE Point Get(int corner) const {
-    const Numbers* n = numbers + 3 * corner;
+    const LaneFloats* n = components + 3 * corner;
     return {LoadPromoted(n[0]), LoadPromoted(n[1]), LoadPromoted(n[2])};
   }
 };
 
 // The setups of a group up to the tangents, one component after the other, with triangles in lanes.
-struct SetupLanes {
-  static constexpr int kCount = (SetupLayout::kColors + 3) / 4 * 4;
-  alignas(64) Numbers numbers[kCount] = {};
+struct AttributeLanes {
+  static constexpr int kCount = (AttributeLayout::kColors + 3) / 4 * 4;
+  alignas(64) LaneFloats components[kCount] = {};
 
-  HWY_INLINE void Put(int place, Double value) { StoreRounded(value, numbers[place]); }
-  HWY_INLINE void Put(int place, const Point& p) { Put(place, p.x), Put(place + 1, p.y), Put(place + 2, p.z); }
+  HWY_INLINE void Put(int component, Double value) { StoreRounded(value, components[component]); }
+  HWY_INLINE void Put(int component, const Point& p) {
+    Put(component, p.x), Put(component + 1, p.y), Put(component + 2, p.z);
+  }
 
   // Transposes the first `count` components of `lanes` triangles into their setups. Writes four at a time, so up to
   // three more may be written.
@@ -93,14 +95,14 @@ struct SetupLanes {
     alignas(64) float fours[4 * kMaxDoubles];
     const HalfTag half;
     for (int i = 0; i < count; i += 4) {
-      hn::StoreInterleaved4(hn::LoadU(half, numbers[i]), hn::LoadU(half, numbers[i + 1]),
-                            hn::LoadU(half, numbers[i + 2]), hn::LoadU(half, numbers[i + 3]), half, fours);
+      hn::StoreInterleaved4(hn::LoadU(half, components[i]), hn::LoadU(half, components[i + 1]),
+                            hn::LoadU(half, components[i + 2]), hn::LoadU(half, components[i + 3]), half, fours);
       for (std::size_t k = 0; k < lanes; ++k) std::memcpy(setups + k * stride + i, fours + 4 * k, 16);
     }
   }
 };
 
-// --- The arithmetic ----------------------------------------------------------------------------------------------------
+// --- The arithmetic -------------------------------------------------------------------------------------------------
 
 HWY_INLINE Double HomogeneousRow(const glm::dvec4& row, const Point& p) {
   return (Double(row.x) * p.x + Double(row.y) * p.y) + (Double(row.z) * p.z + Double(row.w));
@@ -134,7 +136,7 @@ HWY_INLINE Point UnitOr(const Point& v, const Fallback& fallback) {
 // Computes the weights' planes: the rows of the inverse of the matrix with columns h[0], h[1], h[2], up to a positive
 // factor, which cancels as weights are divided by their sum. A degenerate triangle gets all attributes from its first
 // vertex.
-HWY_INLINE void PutPlanes(const Point (&h)[3], RecordKind kind, SetupLanes& out) {
+HWY_INLINE void PutPlanes(const Point (&h)[3], ScreenTriangleKind kind, AttributeLanes& out) {
   Point row[3] = {Cross(h[1], h[2]), Cross(h[2], h[0]), Cross(h[0], h[1])};
   const Double determinant = Dot(row[0], h[0]), zero(0.0);
   const Double sign = Select(determinant < zero, Double(-1.0), Double(1.0));
@@ -145,23 +147,24 @@ HWY_INLINE void PutPlanes(const Point (&h)[3], RecordKind kind, SetupLanes& out)
     const Double reach(64.0);
     largest = Max(Max(Max(largest, Abs(r.x) * reach), Abs(r.y) * reach), Abs(r.z));
   }
-  if (kind == RecordKind::Line) row[2] = {zero, zero, zero};  // the third vertex only gives the line's width
+  if (kind == ScreenTriangleKind::Line) row[2] = {zero, zero, zero};  // the third vertex only gives the line's width
   const DoubleMask good = (zero < largest) & (largest < Double(HUGE_VAL)) & (zero < Abs(determinant));
   for (int i = 0; i < 3; ++i) {
     const Point plane = row[i] / largest;
     const Point degenerate = {zero, zero, Double(i == 0 ? 1.0 : 0.0)};
-    out.Put(SetupLayout::kPlanes + 3 * i, kind == RecordKind::Point ? degenerate : Select(good, plane, degenerate));
+    out.Put(AttributeLayout::kPlanes + 3 * i,
+            kind == ScreenTriangleKind::Point ? degenerate : Select(good, plane, degenerate));
   }
 }
 
-// --- Groups ------------------------------------------------------------------------------------------------------------
+// --- Groups ---------------------------------------------------------------------------------------------------------
 
 // Triangles of one drawable and kind that are set up together, one per lane. Unused lanes have old values, whose
 // results are not read.
 struct Group {
   const FrameDrawable* drawable;
   const Primitive* geometry;
-  RecordKind kind;
+  ScreenTriangleKind kind;
   Corners positions, normals, tangents;
   alignas(64) double sides[kMaxDoubles];  // -1 for back faces, otherwise 1
 };
@@ -170,7 +173,7 @@ constexpr float kNoTangent[3] = {1.0f, 0.0f, 0.0f};
 
 using Vertices = std::array<std::uint32_t, 3>;
 
-void SetUpGroup(const SetupTask& task, const Group& group, SetupLanes& out) {
+void SetUpGroup(const AttributeSetupTask& task, const Group& group, AttributeLanes& out) {
   const FrameView& view = *task.view;
   const FrameDrawable& drawable = *group.drawable;
   Point h[3];
@@ -180,7 +183,7 @@ void SetUpGroup(const SetupTask& task, const Group& group, SetupLanes& out) {
     h[i] = {HomogeneousRow(drawable.screen_from_mesh[0], p) - Double(task.anchor_x) * w,
             HomogeneousRow(drawable.screen_from_mesh[1], p) - Double(task.anchor_y) * w, w};
   }
-  if (group.kind == RecordKind::Line) {
+  if (group.kind == ScreenTriangleKind::Line) {
     const Point line = Cross(h[0], h[1]);  // its x and y point across the line on the screen
     h[2] = {line.x, line.y, Double(0.0)};
   }
@@ -191,7 +194,7 @@ void SetUpGroup(const SetupTask& task, const Group& group, SetupLanes& out) {
     Point position[3];
     for (int i = 0; i < 3; ++i) {
       position[i] = Transform(drawable.eye_relative_from_mesh, group.positions.Get(i), 1.0);
-      out.Put(SetupLayout::kPositions + 3 * i, position[i]);
+      out.Put(AttributeLayout::kPositions + 3 * i, position[i]);
     }
     const auto toward_eye = [&]() HWY_ATTR {
       return UnitOr(-position[0], []() HWY_ATTR { return Point{Double(0.0), Double(0.0), Double(1.0)}; });
@@ -203,15 +206,15 @@ void SetUpGroup(const SetupTask& task, const Group& group, SetupLanes& out) {
     for (int i = 0; i < 3; ++i) {
       const Point normal =
           given ? UnitOr(Transform(drawable.normal_from_mesh, group.normals.Get(i)) * side, flat) : flat();
-      out.Put(SetupLayout::kNormals + 3 * i, normal);
+      out.Put(AttributeLayout::kNormals + 3 * i, normal);
     }
   }
   if (task.material->Has(kTangentSpaceBits)) {
     for (int i = 0; i < 3; ++i) {
       const Point turned = Transform(drawable.eye_relative_from_mesh, group.tangents.Get(i), 0.0);
       const Point x_axis{Double(1.0), Double(0.0), Double(0.0)};
-      out.Put(SetupLayout::kTangents + 4 * i, UnitOr(turned, [&]() HWY_ATTR { return x_axis; }) * side);
-      out.Put(SetupLayout::kTangents + 4 * i + 3, mirrored_side);  // CopyAttributes() multiplies by the handedness
+      out.Put(AttributeLayout::kTangents + 4 * i, UnitOr(turned, [&]() HWY_ATTR { return x_axis; }) * side);
+      out.Put(AttributeLayout::kTangents + 4 * i + 3, mirrored_side);  // CopyAttributes() multiplies by the handedness
     }
   }
 }
@@ -219,13 +222,13 @@ void SetUpGroup(const SetupTask& task, const Group& group, SetupLanes& out) {
 // Copies the attributes that need no arithmetic.
 void CopyAttributes(const FrameMaterial& material, const Primitive& geometry, const Vertices& vertex, float* setup) {
   if (material.Has(kTangentSpaceBits) && !geometry.tangents.empty()) {
-    float* handedness = setup + SetupLayout::kTangents + 3;
+    float* handedness = setup + AttributeLayout::kTangents + 3;
     for (int i = 0; i < 3; ++i) handedness[4 * i] *= geometry.tangents[vertex[std::size_t(i)]].w;
   }
   if (material.vertex_colors) {
     for (int i = 0; i < 3; ++i) {
       const glm::vec4 c = geometry.colors[vertex[std::size_t(i)]];
-      std::copy(&c.x, &c.x + 4, setup + SetupLayout::kColors + 4 * i);
+      std::copy(&c.x, &c.x + 4, setup + AttributeLayout::kColors + 4 * i);
     }
   }
   for (int slot = 0; slot < material.uv_slots; ++slot) {
@@ -233,23 +236,25 @@ void CopyAttributes(const FrameMaterial& material, const Primitive& geometry, co
     const bool present = set < geometry.tex_coords.size() && !geometry.tex_coords[set].empty();
     for (int i = 0; i < 3; ++i) {
       const glm::vec2 uv = present ? geometry.tex_coords[set][vertex[std::size_t(i)]] : glm::vec2(0.0f);
-      float* out = setup + SetupLayout::kTexCoords + 6 * slot + 2 * i;
+      float* out = setup + AttributeLayout::kTexCoords + 6 * slot + 2 * i;
       out[0] = uv.x, out[1] = uv.y;
     }
   }
 }
 
-void SetUpTrianglesKernel(const SetupTask& task) {
+void SetUpTriangleAttributesKernel(const AttributeSetupTask& task) {
   // Indices are prefetched ahead, and, when they have arrived, the vertices: with small triangles, memory latency would
   // dominate otherwise.
   constexpr std::size_t kAhead = 16;  // triangles; at least twice the number of lanes
   static_assert(kAhead >= 2 * kMaxDoubles);
   const FrameMaterial& material = *task.material;
   const bool lit = material.Has(kLit), tangent_space = material.Has(kTangentSpaceBits);
-  const auto stride = std::size_t(SetupLayout::Stride(material.uv_slots));
-  const int count = tangent_space ? SetupLayout::kColors : lit ? SetupLayout::kTangents : SetupLayout::kPositions;
+  const auto stride = std::size_t(AttributeLayout::Stride(material.uv_slots));
+  const int count = tangent_space ? AttributeLayout::kColors
+                    : lit         ? AttributeLayout::kTangents
+                                  : AttributeLayout::kPositions;
   Vertices vertices[kAhead];  // of triangle i at i % kAhead
-  const auto place = [](std::size_t i) { return i % kAhead; };
+  const auto ahead_index = [](std::size_t i) { return i % kAhead; };
   const auto ask_for_indices = [&](std::size_t i) HWY_ATTR {
     if (i >= task.count) return;
     const auto& indices = task.attributes[task.records[i]->drawable]->indices;
@@ -260,7 +265,7 @@ void SetUpTrianglesKernel(const SetupTask& task) {
     if (i >= task.count) return;
     const Primitive& geometry = *task.attributes[task.records[i]->drawable];
     const Vertices vertex = PrimitiveVertices(geometry, task.records[i]->primitive);
-    vertices[place(i)] = vertex;
+    vertices[ahead_index(i)] = vertex;
     const glm::vec3* positions = geometry.positions.data();
     const glm::vec3* normals = geometry.normals.empty() ? positions : geometry.normals.data();
     for (const std::uint32_t v : vertex) __builtin_prefetch(positions + v), __builtin_prefetch(normals + v);
@@ -269,7 +274,7 @@ void SetUpTrianglesKernel(const SetupTask& task) {
   for (std::size_t i = 0; i < kAhead; ++i) ask_for_vertices(i);
 
   Group group{};
-  SetupLanes out;
+  AttributeLanes out;
   for (std::size_t i = 0; i < task.count;) {
     group.drawable = task.drawables + task.records[i]->drawable;
     group.geometry = task.attributes[task.records[i]->drawable];
@@ -281,9 +286,9 @@ void SetUpTrianglesKernel(const SetupTask& task) {
     const std::size_t most = std::min(hn::Lanes(DoubleTag()), task.count - i);
     std::size_t n = 0;
     for (; n < most; ++n) {
-      const TriangleRecord& record = *task.records[i + n];
+      const ScreenTriangle& record = *task.records[i + n];
       if (task.drawables + record.drawable != group.drawable || record.kind != group.kind) break;
-      const Vertices& vertex = vertices[place(i + n)];
+      const Vertices& vertex = vertices[ahead_index(i + n)];
       for (int k = 0; k < 3; ++k) {
         const std::size_t v = vertex[std::size_t(k)];
         group.positions.Set(n, k, &positions[v].x);
@@ -296,7 +301,7 @@ void SetUpTrianglesKernel(const SetupTask& task) {
     float* setups = task.setups + i * stride;
     out.WriteTo(setups, stride, n, count);
     for (std::size_t k = 0; k < n; ++k) {
-      CopyAttributes(material, geometry, vertices[place(i + k)], setups + k * stride);
+      CopyAttributes(material, geometry, vertices[ahead_index(i + k)], setups + k * stride);
     }
     for (std::size_t k = i; k < i + n; ++k) ask_for_vertices(k + kAhead), ask_for_indices(k + 2 * kAhead);
     i += n;
@@ -310,9 +315,9 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace facet {
 
-FACET_EXPORT(SetUpTrianglesKernel);
+FACET_EXPORT(SetUpTriangleAttributesKernel);
 
-void SetUpTriangles(const SetupTask& task) { FACET_DISPATCH(SetUpTrianglesKernel)(task); }
+void SetUpTriangleAttributes(const AttributeSetupTask& task) { FACET_DISPATCH(SetUpTriangleAttributesKernel)(task); }
 
 }  // namespace facet
 #endif

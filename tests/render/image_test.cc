@@ -29,7 +29,7 @@ void ExpectSquare(const Film& film, const glm::vec4& color, int low, int high, c
   }
 }
 
-TEST(Picture, ARectangleCoversItsPixelsAndItsColorIsExact) {
+TEST(RenderedImage, ARectangleCoversItsPixelsAndItsColorIsExact) {
   const glm::vec4 color(0.1f, 0.2f, 0.7f, 1.0f);
   const Scene scene = OneRectangle(color, -0.5f, -0.5f, 0.5f, 0.5f);
   RenderStats stats;
@@ -38,12 +38,12 @@ TEST(Picture, ARectangleCoversItsPixelsAndItsColorIsExact) {
   EXPECT_EQ(stats.fragments_shaded, 64u);
   EXPECT_EQ(stats.triangles_in, 2u);
   EXPECT_EQ(stats.triangles_binned, 2u);
-  const double right_angle = 1.5707963267948966;  // the picture spans [-1, 1] at distance 1
+  const double right_angle = 1.5707963267948966;  // the image spans [-1, 1] at distance 1
   ExpectSquare(Render(scene, Settings(16, 16, 1, Perspective(right_angle, {0, 0, 1}))), color, 4, 12, "perspective");
 }
 
 // Numbers of few digits add up without rounding where two triangles share a pixel.
-TEST(Picture, MultisampledPixelsThatAreFullAreExact) {
+TEST(RenderedImage, MultisampledPixelsThatAreFullAreExact) {
   const glm::vec4 color(0.25f, 0.5f, 0.75f, 1.0f);
   const Scene scene = OneRectangle(color, -0.5f, -0.5f, 0.5f, 0.5f);
   for (int samples : {2, 4, 8}) {
@@ -51,14 +51,14 @@ TEST(Picture, MultisampledPixelsThatAreFullAreExact) {
   }
 }
 
-TEST(Picture, OpaqueMaterialsIgnoreAlpha) {
+TEST(RenderedImage, OpaqueMaterialsIgnoreAlpha) {
   const Scene scene = OneRectangle({0.5f, 0.25f, 1.0f, 0.1f}, -0.5f, -0.5f, 0.5f, 0.5f);
   ExpectSquare(Render(scene, Settings(16, 16, 1, Orthographic(1.0))), {0.5f, 0.25f, 1.0f, 1.0f}, 4, 12, "opaque");
 }
 
 // glTF 2.0, section 3.9.6: without normals points and lines show base colour plus emission, each with its texture and
 // whatever the light; KHR_materials_unlit knows no emission.
-TEST(Picture, PointsAndLinesWithoutNormalsEmit) {
+TEST(RenderedImage, PointsAndLinesWithoutNormalsEmit) {
   for (const Topology topology : {Topology::Points, Topology::Lines, Topology::LineStrip, Topology::LineLoop}) {
     for (const bool unlit : {false, true}) {
       for (const bool textured : {false, true}) {
@@ -70,7 +70,7 @@ TEST(Picture, PointsAndLinesWithoutNormalsEmit) {
         material.emissive_strength = 2.0f;
         if (textured) {
           material.emissive_texture =
-              Ref(AddTexture(scene, Picture(1, 1, [](int, int) { return glm::u8vec4(255, 0, 255, 255); })));
+              Ref(AddTexture(scene, MakeImage(1, 1, [](int, int) { return glm::u8vec4(255, 0, 255, 255); })));
         }
         Primitive p;
         p.topology = topology;
@@ -98,8 +98,8 @@ TEST(Picture, PointsAndLinesWithoutNormalsEmit) {
 }
 
 // A normal map that KHR_texture_transform turns and mirrors is lit as one whose UVs are written out that way.
-TEST(Picture, NormalMapsFollowTheTextureTransform) {
-  const Image bumps = Picture(16, 16, [](int x, int y) {
+TEST(RenderedImage, NormalMapsFollowTheTextureTransform) {
+  const Image bumps = MakeImage(16, 16, [](int x, int y) {
     return glm::u8vec4(128 + 60 * ((x / 2) % 3 - 1), 128 + 50 * ((y / 3) % 3 - 1), 220, 255);
   });
   Transform tilted;
@@ -138,7 +138,7 @@ TEST(Picture, NormalMapsFollowTheTextureTransform) {
   }
 }
 
-TEST(Picture, VertexColorsMultiply) {
+TEST(RenderedImage, VertexColorsMultiply) {
   Scene scene;
   Primitive p = Rectangle(-0.5f, -0.5f, 0.5f, 0.5f);
   p.colors.assign(4, glm::vec4(0.5f, 0.25f, 1.0f, 1.0f));
@@ -147,8 +147,8 @@ TEST(Picture, VertexColorsMultiply) {
 }
 
 // A texel per pixel, read by nearest and by linear filters: each pixel's centre is a texel's centre.
-TEST(Picture, ATextureOfAsManyTexelsAsPixelsIsCopied) {
-  const Image image = Picture(16, 16, [](int x, int y) { return glm::u8vec4((x * 16 + y) & 255, 255, 0, 255); });
+TEST(RenderedImage, ATextureOfAsManyTexelsAsPixelsIsCopied) {
+  const Image image = MakeImage(16, 16, [](int x, int y) { return glm::u8vec4((x * 16 + y) & 255, 255, 0, 255); });
   for (Filter filter : {Filter::Nearest, Filter::Linear}) {
     Scene scene;
     Material material = Unlit(glm::vec4(1.0f));
@@ -178,7 +178,7 @@ const std::array<std::vector<glm::ivec2>, 4> kPatterns = {{
     {{9, 5}, {7, 11}, {13, 9}, {5, 3}, {3, 13}, {1, 7}, {11, 15}, {15, 1}},
 }};
 
-TEST(Picture, AnEdgeCoversTheExpectedShareOfSamples) {
+TEST(RenderedImage, AnEdgeCoversTheExpectedShareOfSamples) {
   for (const auto& pattern : kPatterns) {
     const int samples = int(pattern.size());
     for (int f = 1; f < 32; f += 2) {                              // between the samples' sixteenths
@@ -199,7 +199,7 @@ TEST(Picture, AnEdgeCoversTheExpectedShareOfSamples) {
   }
 }
 
-TEST(Picture, ASceneAMillionUnitsAwayIsTheSame) {
+TEST(RenderedImage, ASceneAMillionUnitsAwayIsTheSame) {
   for (bool orthographic : {false, true}) {
     std::vector<Film> films;
     for (const glm::dvec3 offset : {glm::dvec3(0.0), glm::dvec3(1e6, -1e6, 1e6), glm::dvec3(0, 0, -1.6e7)}) {
@@ -223,7 +223,7 @@ TEST(Picture, ASceneAMillionUnitsAwayIsTheSame) {
 }
 
 // Depth in front of an orthographic camera: the nearer of two rectangles shows, whichever comes first.
-TEST(Picture, TheNearerSurfaceShows) {
+TEST(RenderedImage, TheNearerSurfaceShows) {
   for (bool orthographic : {false, true}) {
     for (bool near_first : {false, true}) {
       Scene scene;
@@ -240,7 +240,7 @@ TEST(Picture, TheNearerSurfaceShows) {
   }
 }
 
-TEST(Picture, AnEmptySceneIsEmpty) {
+TEST(RenderedImage, AnEmptySceneIsEmpty) {
   for (const CameraChoice& camera :
        {CameraChoice(AutoCamera()), CameraChoice(OrbitCamera()), CameraChoice(Orthographic(1))}) {
     RenderStats stats;
@@ -253,7 +253,7 @@ TEST(Picture, AnEmptySceneIsEmpty) {
   }
 }
 
-TEST(Picture, BackFacesAreCulledUnlessDoubleSided) {
+TEST(RenderedImage, BackFacesAreCulledUnlessDoubleSided) {
   for (bool mirrored : {false, true}) {
     for (bool turned : {false, true}) {
       for (bool double_sided : {false, true}) {
@@ -273,10 +273,10 @@ TEST(Picture, BackFacesAreCulledUnlessDoubleSided) {
   }
 }
 
-// --- Light -----------------------------------------------------------------------------------------------------------
+// --- Light ----------------------------------------------------------------------------------------------------------
 
 // A white surface in constant light reflects all of it.
-TEST(Picture, WhiteFurnace) {
+TEST(RenderedImage, WhiteFurnace) {
   Scene scene;
   Add(scene, Sphere(1.0f, 48, 96), AddMaterial(scene, Material()));
   Material& material = scene.materials[0];
@@ -304,7 +304,7 @@ TEST(Picture, WhiteFurnace) {
 }
 
 // Nearly Lambert: at roughness 1 a dielectric of base colour 0.8 reflects within a few percent of 0.8 / pi * E * cos.
-TEST(Picture, DirectionalLightOnARoughSurface) {
+TEST(RenderedImage, DirectionalLightOnARoughSurface) {
   for (double degrees : {0.0, 30.0, 60.0}) {
     const double angle = degrees * 3.14159265358979 / 180.0;
     Scene scene;
@@ -336,7 +336,7 @@ TEST(Picture, DirectionalLightOnARoughSurface) {
   }
 }
 
-TEST(Picture, AnEnvironmentBehindThePicture) {
+TEST(RenderedImage, AnEnvironmentBehindTheImage) {
   Scene scene;
   Add(scene, Rectangle(-0.5f, -0.5f, 0.5f, 0.5f), AddMaterial(scene, Unlit({0.25f, 0.5f, 0.75f, 1.0f})));
   RenderSettings settings = Settings(16, 16, 4, Perspective(1.5707963267948966, {0, 0, 1}));

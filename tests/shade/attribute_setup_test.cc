@@ -1,5 +1,5 @@
 // Primitives set up side by side have the numbers that each has alone, on every instruction set.
-#include "shade/triangle_setup.h"
+#include "shade/attribute_setup.h"
 
 #include <gtest/gtest.h>
 
@@ -48,13 +48,13 @@ Primitive Soup(std::mt19937& random, Topology topology, bool normals, bool tange
   return p;
 }
 
-RecordKind KindOf(Topology topology) {
+ScreenTriangleKind KindOf(Topology topology) {
   switch (ClassOf(topology)) {
-    case PrimitiveClass::Points: return RecordKind::Point;
-    case PrimitiveClass::Lines: return RecordKind::Line;
+    case PrimitiveClass::Points: return ScreenTriangleKind::Point;
+    case PrimitiveClass::Lines: return ScreenTriangleKind::Line;
     case PrimitiveClass::Triangles: break;
   }
-  return RecordKind::Triangle;
+  return ScreenTriangleKind::Triangle;
 }
 
 // Numbers [first, end) of setups that a material reads.
@@ -62,11 +62,11 @@ struct Part {
   int first, end;
 };
 std::vector<Part> ReadParts(const FrameMaterial& material) {
-  std::vector<Part> parts = {{SetupLayout::kPlanes, SetupLayout::kPositions}};
-  if (material.Has(kLit)) parts.push_back({SetupLayout::kPositions, SetupLayout::kTangents});
-  if (material.Has(kTangentSpaceBits)) parts.push_back({SetupLayout::kTangents, SetupLayout::kColors});
-  if (material.vertex_colors) parts.push_back({SetupLayout::kColors, SetupLayout::kTexCoords});
-  constexpr int kUv = SetupLayout::kTexCoords;
+  std::vector<Part> parts = {{AttributeLayout::kPlanes, AttributeLayout::kPositions}};
+  if (material.Has(kLit)) parts.push_back({AttributeLayout::kPositions, AttributeLayout::kTangents});
+  if (material.Has(kTangentSpaceBits)) parts.push_back({AttributeLayout::kTangents, AttributeLayout::kColors});
+  if (material.vertex_colors) parts.push_back({AttributeLayout::kColors, AttributeLayout::kTexCoords});
+  constexpr int kUv = AttributeLayout::kTexCoords;
   if (material.uv_slots > 0) parts.push_back({kUv, kUv + 6 * material.uv_slots});
   return parts;
 }
@@ -86,7 +86,7 @@ std::vector<FrameMaterial> Materials() {
 struct Mixture {
   std::vector<Primitive> geometry;
   std::vector<FrameDrawable> drawables;
-  std::vector<TriangleRecord> records;
+  std::vector<ScreenTriangle> records;
 
   Mixture(std::mt19937& random, const FrameView& view) {
     const Topology topologies[] = {Topology::Triangles, Topology::TriangleStrip, Topology::TriangleFan,
@@ -107,7 +107,7 @@ struct Mixture {
     while (records.size() < 3000) {
       const auto d = static_cast<std::uint32_t>(random() % drawables.size());
       for (auto left = random() % 40; left > 0; --left) {
-        TriangleRecord r{};
+        ScreenTriangle r{};
         r.drawable = d;
         r.primitive = static_cast<std::uint32_t>(random() % drawables[d].primitive_count);
         r.kind = KindOf(drawables[d].geometry->topology);
@@ -118,25 +118,25 @@ struct Mixture {
   }
 };
 
-std::size_t StrideOf(const FrameMaterial& material) { return std::size_t(SetupLayout::Stride(material.uv_slots)); }
+std::size_t StrideOf(const FrameMaterial& material) { return std::size_t(AttributeLayout::Stride(material.uv_slots)); }
 
 std::vector<float> SetUpAll(const FrameView& view, const Mixture& scene, const FrameMaterial& material,
-                         const std::vector<const TriangleRecord*>& records, std::size_t batch) {
+                            const std::vector<const ScreenTriangle*>& records, std::size_t batch) {
   std::vector<float> setups(records.size() * StrideOf(material), kUnset);
   for (std::size_t i = 0; i < records.size(); i += batch) {
-    SetUpTriangles({&view, scene.drawables.data(), &material, kAnchorX, kAnchorY, records.data() + i,
-                    std::min(batch, records.size() - i), setups.data() + i * StrideOf(material)});
+    SetUpTriangleAttributes({&view, scene.drawables.data(), &material, kAnchorX, kAnchorY, records.data() + i,
+                             std::min(batch, records.size() - i), setups.data() + i * StrideOf(material)});
   }
   return setups;
 }
 
-TEST(SetUpTriangles, GivesEachWhatItHasAlone) {
+TEST(SetUpTriangleAttributes, GivesEachWhatItHasAlone) {
   std::mt19937 random(41);
   for (const bool orthographic : {false, true}) {
     const FrameView view = View(orthographic);
     const Mixture scene(random, view);
-    std::vector<const TriangleRecord*> records;
-    for (const TriangleRecord& r : scene.records) records.push_back(&r);
+    std::vector<const ScreenTriangle*> records;
+    for (const ScreenTriangle& r : scene.records) records.push_back(&r);
     for (const FrameMaterial& material : Materials()) {
       std::vector<float> expected;
       {
@@ -164,30 +164,30 @@ TEST(SetUpTriangles, GivesEachWhatItHasAlone) {
 
 // What a normal that has no direction is replaced by depends on its own triangle alone: flat, and that failing, towards
 // the eye.
-TEST(SetUpTriangles, NormalsThatAreUselessBecomeFlat) {
+TEST(SetUpTriangleAttributes, NormalsThatAreUselessBecomeFlat) {
   const FrameView view = View(false);
   std::mt19937 random(42);
   const Mixture scene(random, view);
-  std::vector<const TriangleRecord*> records;
-  for (const TriangleRecord& r : scene.records) records.push_back(&r);
+  std::vector<const ScreenTriangle*> records;
+  for (const ScreenTriangle& r : scene.records) records.push_back(&r);
   const std::vector<float> setups = SetUpAll(view, scene, Materials()[1], records, records.size());
   const std::size_t stride = StrideOf(Materials()[1]);
   int flat = 0, toward_eye = 0;
   for (std::size_t i = 0; i < records.size(); ++i) {
     const FrameDrawable& drawable = scene.drawables[records[i]->drawable];
-    if (records[i]->kind != RecordKind::Triangle || drawable.geometry->normals.empty()) continue;
+    if (records[i]->kind != ScreenTriangleKind::Triangle || drawable.geometry->normals.empty()) continue;
     const auto vertices = PrimitiveVertices(*drawable.geometry, records[i]->primitive);
     if (std::find(vertices.begin(), vertices.end(), 7u) != vertices.end()) continue;
     const auto vec3 = [&](int at) {
       const float* p = &setups[i * stride + std::size_t(at)];
       return glm::dvec3(p[0], p[1], p[2]);
     };
-    const glm::dvec3 a = vec3(SetupLayout::kPositions), b = vec3(SetupLayout::kPositions + 3),
-                     c = vec3(SetupLayout::kPositions + 6), across = glm::cross(b - a, c - a);
+    const glm::dvec3 a = vec3(AttributeLayout::kPositions), b = vec3(AttributeLayout::kPositions + 3),
+                     c = vec3(AttributeLayout::kPositions + 6), across = glm::cross(b - a, c - a);
     const double side = records[i]->back_facing != drawable.mirrored ? -1.0 : 1.0;
     for (int k = 0; k < 3; ++k) {
       const glm::dvec3 given = drawable.geometry->normals[vertices[std::size_t(k)]];
-      const glm::dvec3 normal = vec3(SetupLayout::kNormals + 3 * k);
+      const glm::dvec3 normal = vec3(AttributeLayout::kNormals + 3 * k);
       ASSERT_NEAR(glm::length(normal), 1.0, 1e-6) << i;
       if (glm::length(given) > 0.0 && std::isfinite(glm::length(given))) continue;
       if (glm::length(across) > 0.05) {
@@ -205,13 +205,13 @@ TEST(SetUpTriangles, NormalsThatAreUselessBecomeFlat) {
 
 // A matrix with a NaN in it leaves no plane: such a triangle takes everything from its first vertex, as one without
 // area does.
-TEST(SetUpTriangles, WhatIsNoNumberTakesItsFirstVertex) {
+TEST(SetUpTriangleAttributes, WhatIsNoNumberTakesItsFirstVertex) {
   const FrameView view = View(false);
   std::mt19937 random(43);
   Mixture scene(random, view);
-  std::vector<const TriangleRecord*> records;
-  for (const TriangleRecord& r : scene.records) {
-    if (r.kind == RecordKind::Triangle) records.push_back(&r);
+  std::vector<const ScreenTriangle*> records;
+  for (const ScreenTriangle& r : scene.records) {
+    if (r.kind == ScreenTriangleKind::Triangle) records.push_back(&r);
   }
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 4; ++column) {
@@ -224,7 +224,7 @@ TEST(SetUpTriangles, WhatIsNoNumberTakesItsFirstVertex) {
         const ScopedTarget scoped(target);
         const std::vector<float> setups = SetUpAll(view, broken, Materials()[0], records, records.size());
         for (std::size_t i = 0; i < records.size(); ++i) {
-          const float* planes = &setups[i * StrideOf(Materials()[0]) + SetupLayout::kPlanes];
+          const float* planes = &setups[i * StrideOf(Materials()[0]) + AttributeLayout::kPlanes];
           const float first[9] = {0, 0, 1, 0, 0, 0, 0, 0, 0};
           ASSERT_TRUE(std::equal(first, first + 9, planes))
               << TargetName(target) << ", NaN in row " << row << ", column " << column << ", record " << i;

@@ -1,4 +1,4 @@
-// Pictures that show nothing, or nothing but black, are rarely what was wanted: why that is so.
+// Explains images that show nothing, or only black, which is rarely what the user wanted.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-#include "film/develop_pixels.h"
+#include "film/encode_pixels.h"
 
 #include <algorithm>
 #include <bit>
@@ -7,7 +7,7 @@
 #include <limits>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "film/develop_pixels.cc"
+#define HWY_TARGET_INCLUDE "film/encode_pixels.cc"
 #include "hwy/foreach_target.h"
 
 #include "color/tone_curve-inl.h"
@@ -32,7 +32,7 @@ HWY_INLINE Vec3<Float> ApplyToneMap(ToneMap tone_map, Vec3<Float> light) {
 }
 
 // Straight (not premultiplied), exposed light; alpha in [0, 1]. Pixels that are not finite are empty.
-HWY_INLINE Vec4<Float> ExposedLight(const DevelopTask& task, const float* pixels) {
+HWY_INLINE Vec4<Float> ExposedLight(const EncodeTask& task, const float* pixels) {
   Float r, g, b, a;
   hn::LoadInterleaved4(FloatTag(), pixels, r.raw, g.raw, b.raw, a.raw);
   const Vec4<Float> p{r, g, b, a};
@@ -47,8 +47,8 @@ HWY_INLINE Vec4<Float> ExposedLight(const DevelopTask& task, const float* pixels
   return {expose(straight.x), expose(straight.y), expose(straight.z), alpha};
 }
 
-// Light that is seen in front of the background: an exact 1 behind an empty pixel stays an exact 1.
-HWY_INLINE Vec3<Float> InFront(const DevelopTask& task, Vec3<Float> light, Float alpha) {
+// Composites light over the background: an exact 1 behind an empty pixel stays an exact 1.
+HWY_INLINE Vec3<Float> InFront(const EncodeTask& task, Vec3<Float> light, Float alpha) {
   const Float through = Float(1.0f) - alpha;
   const auto& back = task.background_linear;
   return {light.x * alpha + Float(back[0]) * through, light.y * alpha + Float(back[1]) * through,
@@ -59,12 +59,12 @@ struct Codes {
   Int r, g, b, a;
 };
 
-HWY_INLINE Codes DevelopCodes(const DevelopTask& task, const float* pixels) {
+HWY_INLINE Codes EncodeCodes(const EncodeTask& task, const float* pixels) {
   const Vec4<Float> light = ExposedLight(task, pixels);
   Vec3<Float> shown = ApplyToneMap(task.tone_map, Xyz(light));
   if (task.opaque) shown = InFront(task, shown, light.w);
   const Float largest(task.type == ChannelType::U8 ? 255.0f : 65535.0f);
-  // What is wholly transparent has no colour.
+  // Wholly transparent pixels have no colour.
   const Mask colored = task.opaque ? light.w == light.w : light.w > Float(0.0f);
   const auto encode = [&](Float c) HWY_ATTR {
     return Select(colored,
@@ -74,7 +74,7 @@ HWY_INLINE Codes DevelopCodes(const DevelopTask& task, const float* pixels) {
   return {encode(shown.x), encode(shown.y), encode(shown.z), TruncateToInt(light.w * largest + Float(0.5f))};
 }
 
-// LaneCount() pixels of four or three bytes; `room` pixels may be written.
+// Stores LaneCount() pixels of four or three bytes; `room` pixels may be written.
 HWY_INLINE void StoreBytes(const Codes& codes, bool opaque, std::size_t room, std::byte* out) {
   static_assert(std::endian::native == std::endian::little, "the packing below puts red first");
   const Int packed = codes.r | ShiftLeft<8>(codes.g) | ShiftLeft<16>(codes.b) | ShiftLeft<24>(codes.a);
@@ -112,13 +112,13 @@ HWY_INLINE void StoreWords(const Codes& codes, bool opaque, std::size_t room, st
   StoreEach<std::uint16_t>(values, opaque, room, out);
 }
 
-HWY_INLINE void DevelopLinear(const DevelopTask& task, const float* pixels, std::size_t room, std::byte* out) {
+HWY_INLINE void EncodeLinear(const EncodeTask& task, const float* pixels, std::size_t room, std::byte* out) {
   const Vec4<Float> light = ExposedLight(task, pixels);
   constexpr float kMax = std::numeric_limits<float>::max();
   Vec3<Float> shown = Clamp(Xyz(light), Float(-kMax), Float(kMax));
   if (task.opaque) shown = Clamp(InFront(task, shown, light.w), Float(-kMax), Float(kMax));
   if (!task.opaque && room >= LaneCount()) {
-    // The picture's bytes come from operator new, which aligns them for float.
+    // The image's bytes come from operator new, which aligns them for float.
     hn::StoreInterleaved4(shown.x.raw, shown.y.raw, shown.z.raw, light.w.raw, FloatTag(),
                           reinterpret_cast<float*>(out));
     return;
@@ -132,26 +132,26 @@ HWY_INLINE void DevelopLinear(const DevelopTask& task, const float* pixels, std:
 }
 
 // LaneCount() pixels, of which `room` may be written.
-HWY_INLINE void DevelopPacket(const DevelopTask& task, const float* pixels, std::size_t room, std::byte* out) {
+HWY_INLINE void EncodePacket(const EncodeTask& task, const float* pixels, std::size_t room, std::byte* out) {
   switch (task.type) {
-    case ChannelType::U8: return StoreBytes(DevelopCodes(task, pixels), task.opaque, room, out);
-    case ChannelType::U16: return StoreWords(DevelopCodes(task, pixels), task.opaque, room, out);
-    case ChannelType::F32: return DevelopLinear(task, pixels, room, out);
+    case ChannelType::U8: return StoreBytes(EncodeCodes(task, pixels), task.opaque, room, out);
+    case ChannelType::U16: return StoreWords(EncodeCodes(task, pixels), task.opaque, room, out);
+    case ChannelType::F32: return EncodeLinear(task, pixels, room, out);
   }
 }
 
-// True if the packet's numbers are all zero: most of a picture without background often is.
+// True if all components of the packet are zero, as often in images without a background.
 HWY_INLINE bool IsEmpty(const float* pixels) {
   Int bits(0);
   for (std::size_t i = 0; i < 4; ++i) bits = bits | BitsOf(LoadFloat(pixels + i * LaneCount()));
   return All(bits == Int(0));
 }
 
-void DevelopPixels(const DevelopTask& task) {
+void EncodePixels(const EncodeTask& task) {
   const std::size_t lanes = LaneCount(), pixel_size = task.PixelBytes();
   alignas(64) std::byte empty[4 * kMaxLanes * sizeof(float)];  // a packet of empty pixels
   const float zeros[4 * kMaxLanes] = {};
-  DevelopPacket(task, zeros, lanes, empty);
+  EncodePacket(task, zeros, lanes, empty);
   for (std::size_t y = 0; y < task.rows; ++y) {
     for (std::size_t x = 0; x < task.count; x += lanes) {
       const std::size_t count = std::min(lanes, task.count - x);
@@ -166,7 +166,7 @@ void DevelopPixels(const DevelopTask& task) {
       if (IsEmpty(pixels)) {
         std::memcpy(out, empty, count * pixel_size);
       } else {
-        DevelopPacket(task, pixels, count, out);
+        EncodePacket(task, pixels, count, out);
       }
     }
   }
@@ -179,8 +179,8 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace facet {
 
-FACET_EXPORT(DevelopPixels);
-void DevelopPixels(const DevelopTask& task) { FACET_DISPATCH(DevelopPixels)(task); }
+FACET_EXPORT(EncodePixels);
+void EncodePixels(const EncodeTask& task) { FACET_DISPATCH(EncodePixels)(task); }
 
 }  // namespace facet
 #endif
