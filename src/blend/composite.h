@@ -13,10 +13,10 @@ namespace facet {
 // Keeps its working memory from tile to tile. Not thread-safe: one per worker.
 class Compositor {
  public:
-  // Replaces those of `pixels` (tile_size a row) that blended fragments cover. Each sample starts with the opaque fragment
-  // that covers it, or with `background`. The blended fragments are composited over it in the order of their depth at
-  // that very sample, so that intersecting surfaces are right. At equal depth the later triangle is in front. `opaque`:
-  // in the order of VisibleFragments. `records`: by id in the tile.
+  // Replaces those of `pixels` (tile_size a row) that blended fragments cover. Each sample starts with the opaque
+  // fragment that covers it, or with `background`. The blended fragments are composited over it in the order of their
+  // depth at that very sample, so that intersecting surfaces are right. At equal depth the later triangle is in front.
+  // `opaque`: in the order of VisibleFragments. `records`: by id in the tile.
   void Run(const TileBuffers& tile, const ShadedFragments& opaque, const ShadedFragments& blended,
            std::span<const ScreenTriangle* const> records, const std::vector<glm::vec4>& background,
            std::vector<glm::vec4>& pixels);

@@ -1,5 +1,5 @@
-// The digests of facet/film.h for a film that arrives in bands: begin with these, and add the bytes of all rows, top row
-// first.
+// The digests of facet/film.h for a film that arrives in bands: begin with these, and add the bytes of all rows, top
+// row first.
 #pragma once
 
 #include "base/sha256.h"

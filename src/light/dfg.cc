@@ -30,8 +30,8 @@ namespace HWY_NAMESPACE {
 
 // The integral of D V n_dot_l dl over half vectors, with dl = 4 v_dot_h dh. In x = tan(theta_h) / alpha and y = ln x:
 //   D dh = x^2 / (1 + x^2)^2 / (pi cos(theta_h)) dy dphi,
-// so that the part that varies fast is the same for every alpha. Equal steps in y also reach the far tails, which matter
-// at grazing views; points evenly spaced in D's cumulative distribution miss them and lose up to 5 %.
+// so that the part that varies fast is the same for every alpha. Equal steps in y also reach the far tails, which
+// matter at grazing views; points evenly spaced in D's cumulative distribution miss them and lose up to 5 %.
 void IntegrateDfgRow(const DfgRowTask& task) {
   static_assert(DfgTable::kColumns % kMaxLanes == 0);
   for (int column = 0; column < DfgTable::kColumns; column += static_cast<int>(LaneCount())) {
@@ -91,8 +91,8 @@ constexpr int kAzimuth = 24;
 constexpr double kFirstLogTangent = -5.0, kLastLogTangent = 8.0;
 constexpr double kPiDouble = 3.14159265358979324;
 
-// 2 * integral over [0, 1] of E(mu) mu d mu, of E as the table's lookup interpolates it: linear in u, the fourth root of
-// mu, so that each piece is the integral of (e0 + slope (u - u0)) 8 u^7 du.
+// 2 * integral over [0, 1] of E(mu) mu d mu, of E as the table's lookup interpolates it: linear in u, the fourth root
+// of mu, so that each piece is the integral of (e0 + slope (u - u0)) 8 u^7 du.
 double AverageOverHemisphere(const float* albedo) {
   const auto power8 = [](double u) { return ((u * u) * (u * u)) * ((u * u) * (u * u)); };
   const double step = 1.0 / (DfgTable::kColumns - 1);

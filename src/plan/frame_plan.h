@@ -1,5 +1,5 @@
-// The plan of a frame: what this scene with these settings needs, and what is disabled. It is made once, and every stage
-// obeys it.
+// The plan of a frame: what this scene with these settings needs, and what is disabled. It is made once, and every
+// stage obeys it.
 #pragma once
 
 #include <array>

@@ -115,8 +115,8 @@ struct TriangleEdges {
     }
   }
 
-  // Whether a block is outside of one edge, cut by some, or inside of all. An edge function that is positive in the whole
-  // block becomes 0, which passes everywhere.
+  // Whether a block is outside of one edge, cut by some, or inside of all. An edge function that is positive in the
+  // whole block becomes 0, which passes everywhere.
   enum class Overlap { None, Part, Whole };
   HWY_INLINE Overlap InBlock(int x_px, int y_px, BlockEdges& out) const {
     constexpr std::int64_t kReach = kBlockSize * kSampleGrid - 1;
@@ -148,8 +148,8 @@ struct TriangleEdges {
     return Overlap::Part;
   }
 
-  // Edge function i at a block's corner, divided by 16 and rounded down. Nothing is lost: samples lie on sixteenths of a
-  // pixel, which are multiples of 16 in fx8.
+  // Edge function i at a block's corner, divided by 16 and rounded down. Nothing is lost: samples lie on sixteenths of
+  // a pixel, which are multiples of 16 in fx8.
   HWY_INLINE std::int64_t Corner(int i, int x_px, int y_px) const {
     return (a[i] * (std::int64_t{x_px} << kSubpixelBits) + b[i] * (std::int64_t{y_px} << kSubpixelBits) +
             c[i]) >>

@@ -25,8 +25,8 @@ void RasterOpaque(const TileTriangles& triangles, TileBuffers& tile);
 // a transparent layer that lies in an opaque surface is visible).
 enum class CollectDepth : std::uint8_t { Nearer, NearerOrEqual };
 
-// Lists the fragments that pass the depth test against the tile, without changing the tile. They are in the order of the
-// triangles; those of one triangle are in no particular order.
+// Lists the fragments that pass the depth test against the tile, without changing the tile. They are in the order of
+// the triangles; those of one triangle are in no particular order.
 void RasterCollect(const TileTriangles& triangles, const TileBuffers& tile, FragmentList& out,
                    CollectDepth test = CollectDepth::Nearer);
 

@@ -41,8 +41,8 @@ glm::dvec3 DirectionThrough(const FrameView& view, double x, double y) {
 
 namespace {
 
-// The eye in mesh space. Positions relative to it are rounded in proportion to their distance, and so is what the screen
-// shows of the error. All primitives of a mesh share it, so that there are no cracks between them.
+// The eye in mesh space. Positions relative to it are rounded in proportion to their distance, and so is what the
+// screen shows of the error. All primitives of a mesh share it, so that there are no cracks between them.
 glm::vec3 EyeInMesh(const glm::dmat3& linear, const glm::dvec3& origin_eye) {
   const glm::dvec3 eye = glm::inverse(linear) * -origin_eye;
   constexpr double kLimit = 1e30;  // of what is left of a singular matrix

@@ -11,17 +11,17 @@
 namespace facet {
 namespace {
 
-// In pixels. A fragment lies within the snapped triangle, whose corners have moved by at most kOff. Its attributes, hence
-// the position at which it is lit, are those of the unsnapped triangle, clamped to its edges. That moves the position, and
-// lines and points are wider than the positions at which they are lit: by less than kBorder in all.
+// In pixels. A fragment lies within the snapped triangle, whose corners have moved by at most kOff. Its attributes,
+// hence the position at which it is lit, are those of the unsnapped triangle, clamped to its edges. That moves the
+// position, and lines and points are wider than the positions at which they are lit: by less than kBorder in all.
 constexpr double kOff = 1.0 / 64.0;
 constexpr double kBorder = 2.0;
 // The error of a sum of three floats, relative to the largest of them.
 constexpr double kRounding = 0x1p-21;
 
-// Whether a triangle is so thin that its fragments may be lit anywhere along it, because its area comes from snapping or
-// its weights are clamped. (In a triangle at least 1/128 as high as it is long, an error of kOff moves a position by at
-// most 128 kOff along an edge.)
+// Whether a triangle is so thin that its fragments may be lit anywhere along it, because its area comes from snapping
+// or its weights are clamped. (In a triangle at least 1/128 as high as it is long, an error of kOff moves a position by
+// at most 128 kOff along an edge.)
 bool IsSliver(const ScreenTriangle& r) {
   if (r.kind != ScreenTriangleKind::Triangle) return false;
   std::int64_t longest2 = 0, area2 = 0;

@@ -9,8 +9,8 @@
 
 namespace facet {
 
-// For perspective views. The box is conservative: a light that does not reach it contributes exactly nothing to any of the
-// fragments.
+// For perspective views. The box is conservative: a light that does not reach it contributes exactly nothing to any of
+// the fragments.
 class LitBox {
  public:
   LitBox(const FrameView& view, const TileBuffers& tile) : view_(view), tile_(tile) {}

@@ -71,7 +71,8 @@ struct Renderer::FrameOutput {
   }
 };
 
-// Draws frames, stage by stage, and keeps what frames share. Each part of it is computed again only if its settings change.
+// Draws frames, stage by stage, and keeps what frames share. Each part of it is computed again only if its settings
+// change.
 class Renderer::Frames {
  public:
   explicit Frames(const Scene& scene) : scene_(scene), pose_(scene) {}

@@ -14,7 +14,8 @@ class TileLights {
   // `cull`: false to keep all lights.
   TileLights(const FrameView& view, const LightingData& lighting, bool cull);
 
-  // The lights that reach the fragments; all, if they are few or the fragments have no bound. Valid until the next call.
+  // The lights that reach the fragments; all, if they are few or the fragments have no bound. Valid until the next
+  // call.
   const LightingData& Reaching(const TileBuffers& tile, const TileRecords& records, const FragmentList& fragments);
 
  private:

@@ -22,8 +22,8 @@ struct TilePassInput {
   const std::function<void(double)>& progress;  // may be empty
 };
 
-// Where the pixels of tiles go: to a film, or to an image, for which each tile is tone-mapped and encoded while it is in
-// the first-level cache. Both have the width of the grid.
+// Where the pixels of tiles go: to a film, or to an image, for which each tile is tone-mapped and encoded while it is
+// in the first-level cache. Both have the width of the grid.
 struct TileOutput {
   glm::vec4* film = nullptr;  // null: pixels go to encode.out
   EncodeTask encode;

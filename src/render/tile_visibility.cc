@@ -34,10 +34,10 @@ void TileVisibility::Draw() {
   if (!lists.masked[list_].empty()) DrawMasked(lists.masked[list_]);
 }
 
-// Works in batches: lists the fragments that are nearer than the opaque triangles, computes their alpha, and stores those
-// that pass in order, each with its own depth test. (If fragments were listed against the depth of that moment, the
-// samples that a fragment covers, and with them the position at which its alpha is read, would depend on where batches
-// end, and so on the size of tiles.)
+// Works in batches: lists the fragments that are nearer than the opaque triangles, computes their alpha, and stores
+// those that pass in order, each with its own depth test. (If fragments were listed against the depth of that moment,
+// the samples that a fragment covers, and with them the position at which its alpha is read, would depend on where
+// batches end, and so on the size of tiles.)
 void TileVisibility::DrawMasked(std::span<const TileRun> runs) {
   constexpr std::size_t kBatch = 64;  // triangles
   behind_masked_ = tile_;

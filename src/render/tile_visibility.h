@@ -13,8 +13,8 @@
 
 namespace facet {
 
-// Charges the triangles and fragments of a tile, which may be any number, to the memory budget. The few that nearly every
-// tile has are not counted.
+// Charges the triangles and fragments of a tile, which may be any number, to the memory budget. The few that nearly
+// every tile has are not counted.
 class TileCharge {
  public:
   void AdmitRecords(std::size_t count) { Admit(count, kPerRecord, records_); }
@@ -38,8 +38,8 @@ class TileVisibility {
   TileVisibility(const TiledView& view, TileShading& shading)
       : view_(view), shading_(shading), records_(view.geometry) {}
 
-  // Begins tile (column, row) of the grid; `list` is the index of its lists in the geometry's. False: no triangle touches
-  // the tile, and its buffers are not cleared.
+  // Begins tile (column, row) of the grid; `list` is the index of its lists in the geometry's. False: no triangle
+  // touches the tile, and its buffers are not cleared.
   bool Begin(int column, int row, std::size_t list);
 
   // Draws the tile's opaque and alpha-tested triangles.

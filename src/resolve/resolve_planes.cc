@@ -17,8 +17,9 @@ void Write(PlaneKind kind, const PlaneTile& t) {
   }
 }
 
-// Finds the nearest sample of each pixel in a row of a block, from (x, y) on: larger depths are nearer, and of equal ones
-// the first sample stays. Uncovered samples are infinitely far away. Without branches, so that compilers vectorize it.
+// Finds the nearest sample of each pixel in a row of a block, from (x, y) on: larger depths are nearer, and of equal
+// ones the first sample stays. Uncovered samples are infinitely far away. Without branches, so that compilers vectorize
+// it.
 void FindNearest(const TileBuffers& tile, int x, int y, std::int32_t* nearest) {
   float depth[kBlockSize];
   for (int i = 0; i < kBlockSize; ++i) nearest[i] = kNoSample, depth[i] = -std::numeric_limits<float>::infinity();

@@ -171,7 +171,8 @@ HWY_INLINE TwoFloats<T> ExtendedLog2(T x) {
   return {high, rest - (high - sum)};
 }
 
-// x^y for x >= 0; NaN for x < 0 (-0 counts as 0). Below 6 ULP (docs/determinism.md). Pow(x, 0) = Pow(1, y) = 1, even for NaN.
+// x^y for x >= 0; NaN for x < 0 (-0 counts as 0). Below 6 ULP (docs/determinism.md). Pow(x, 0) = Pow(1, y) = 1, even
+// for NaN.
 template <class T>
 HWY_INLINE T Pow(T x, T y) {
   const T zero = T(0.0f), one = T(1.0f), infinity = T(HUGE_VALF);

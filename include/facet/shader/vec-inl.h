@@ -52,8 +52,8 @@ template <class T> HWY_INLINE Vec3<T> Mix(Vec3<T> a, Vec3<T> b, T t) { return a 
 template <class T> HWY_INLINE T Mix(T a, T b, T t) { return a * (T(1.0f) - t) + b * t; }
 template <class T> HWY_INLINE T MaxComponent(Vec3<T> a) { return Max(a.x, Max(a.y, a.z)); }
 
-// a / |a|, or `fallback` where a is zero or not finite. Scaled by its largest component first, it can be squared however
-// long or short it is; scaled by a power of two before, the reciprocal of that component is finite.
+// a / |a|, or `fallback` where a is zero or not finite. Scaled by its largest component first, it can be squared
+// however long or short it is; scaled by a power of two before, the reciprocal of that component is finite.
 template <class T> HWY_INLINE Vec3<T> NormalizeOr(Vec3<T> a, Vec3<T> fallback) {
   const T largest = MaxComponent(Vec3<T>{Abs(a.x), Abs(a.y), Abs(a.z)});
   const T up = Select(largest < T(1e-30f), T(0x1p100f), T(1.0f));

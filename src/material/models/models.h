@@ -1,6 +1,6 @@
 // The table of shading models. A model is a functor in a file of its own beside this one. The shading stage, which
-// loops over FACET_SHADING_MODELS, compiles it for the lanes of every instruction set, and for double. The reference has
-// its own evaluation of each (reference/models_exact.cc).
+// loops over FACET_SHADING_MODELS, compiles it for the lanes of every instruction set, and for double. The reference
+// has its own evaluation of each (reference/models_exact.cc).
 #pragma once
 
 #include <algorithm>

@@ -7,8 +7,8 @@
 
 namespace facet {
 
-// Computed from the depth of the depth test, so that comparing distances agrees with visibility: 1 / depth, by IEEE 754's
-// division, for a perspective camera, and -depth (0 without a sign) for an orthographic one.
+// Computed from the depth of the depth test, so that comparing distances agrees with visibility: 1 / depth, by IEEE
+// 754's division, for a perspective camera, and -depth (0 without a sign) for an orthographic one.
 inline void WriteDepth(const PlaneTile& t) {
   constexpr float kNothing = std::numeric_limits<float>::infinity();
   const float* depth = t.tile.depth.data();
