@@ -270,10 +270,10 @@ TEST(Planes, AreRefusedTwiceUnknownOrOfAnImage) {
   EXPECT_NE(Refusal(render).find("a plane of kind "), std::string::npos);
   settings.planes = {PlaneKind::Depth};
   Image image;
-  const auto develop = [&] { Renderer(scene).RenderImage(settings, {}, image); };
-  EXPECT_NE(Refusal(develop).find("planes besides colour of a picture"), std::string::npos);
+  const auto render_image = [&] { Renderer(scene).RenderImage(settings, {}, image); };
+  EXPECT_NE(Refusal(render_image).find("planes besides colour of a picture"), std::string::npos);
   settings.planes.clear();
-  develop();
+  render_image();
 }
 
 TEST(Planes, TheirMemoryCounts) {

@@ -154,7 +154,7 @@ TEST(Pose, VariantsChooseMaterials) {
   EXPECT_EQ(Pose(scene, {.variant = 1}).drawables[0].material, 0) << "left alone by this variant";
 }
 
-// Without what only shading reads, the scene's own geometry is drawn, and completed it is what Pose() draws.
+// Without what only shading reads, the scene's own geometry is drawn, and with tangents it is what Pose() draws.
 TEST(Pose, LeavesCompletionToOthers) {
   Primitive strip;
   strip.topology = Topology::TriangleStrip;

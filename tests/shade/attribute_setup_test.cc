@@ -123,9 +123,12 @@ std::size_t StrideOf(const FrameMaterial& material) { return std::size_t(Attribu
 std::vector<float> SetUpAll(const FrameView& view, const Mixture& scene, const FrameMaterial& material,
                             const std::vector<const ScreenTriangle*>& records, std::size_t batch) {
   std::vector<float> setups(records.size() * StrideOf(material), kUnset);
+  std::vector<const Primitive*> attributes;
+  for (const FrameDrawable& drawable : scene.drawables) attributes.push_back(drawable.geometry);
   for (std::size_t i = 0; i < records.size(); i += batch) {
-    SetUpTriangleAttributes({&view, scene.drawables.data(), &material, kAnchorX, kAnchorY, records.data() + i,
-                             std::min(batch, records.size() - i), setups.data() + i * StrideOf(material)});
+    SetUpTriangleAttributes({&view, scene.drawables.data(), attributes.data(), &material, kAnchorX, kAnchorY,
+                             records.data() + i, std::min(batch, records.size() - i),
+                             setups.data() + i * StrideOf(material)});
   }
   return setups;
 }

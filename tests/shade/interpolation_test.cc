@@ -103,7 +103,7 @@ std::vector<Attributes> Interpolate(const FrameView& view, const Drawable& place
   ScreenTriangle only = record;
   only.drawable = 0;
   const ScreenTriangle* const records[] = {&only};
-  SetUpTriangleAttributes({&view, &drawable, &material, anchor_x, anchor_y, records, 1, setup.data()});
+  SetUpTriangleAttributes({&view, &drawable, &drawable.geometry, &material, anchor_x, anchor_y, records, 1, setup.data()});
   const std::size_t padded = (at.size() + 15) / 16 * 16;
   std::vector<std::int32_t> setups(padded, 0);
   std::vector<float> x(padded, 0.0f), y(padded, 0.0f), out(padded * kSurfaceComponents), first;
