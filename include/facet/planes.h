@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -46,16 +47,14 @@ constexpr const PlaneInfo* FindPlane(std::string_view name) {
   return nullptr;
 }
 
-namespace internal {
-constexpr bool PlanesAreInOrder() {
-  std::size_t next = 0;
-  for (const PlaneInfo& info : kPlanes) {
-    if (std::size_t(info.kind) != next++) return false;
-  }
-  return true;
-}
-static_assert(PlanesAreInOrder(), "InfoOf() finds a plane by its kind");
-}  // namespace internal
+static_assert(
+    [] {
+      for (std::size_t i = 0; i < std::size(kPlanes); ++i) {
+        if (std::size_t(kPlanes[i].kind) != i) return false;
+      }
+      return true;
+    }(),
+    "InfoOf() finds a plane by its kind");
 
 // A plane of a film: the film's height rows of its width pixels, top row first, little-endian, without gaps.
 struct Plane {

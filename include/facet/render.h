@@ -91,8 +91,8 @@ class Renderer {
 
   // Renders into an image: the same bytes as EncodeFilm() of the film of Render(). Each tile is tone-mapped and encoded
   // while it is in the first-level cache, so that no film is stored, which would take 16 bytes a pixel. The memory of
-  // `image` is reused. Throws what Render() and EncodeFilm() do, and
-  // Error(InvalidUsage) for settings.planes, which an image does not have; then it leaves no usable image.
+  // `image` is reused. Throws what Render() and EncodeFilm() do, and Error(InvalidUsage) for settings.planes,
+  // which an image does not have; then it leaves no usable image.
   void RenderImage(const RenderSettings& settings, const DisplaySettings& display, Image& image,
                    RenderStats* stats = nullptr, ChannelType type = ChannelType::U8);
 

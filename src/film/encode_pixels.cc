@@ -47,7 +47,7 @@ HWY_INLINE Vec4<Float> ExposedLight(const EncodeTask& task, const float* pixels)
   return {expose(straight.x), expose(straight.y), expose(straight.z), alpha};
 }
 
-// Composites light over the background: an exact 1 behind an empty pixel stays an exact 1.
+// Composites light over the background. Behind an empty pixel a background of exactly 1 stays exactly 1.
 HWY_INLINE Vec3<Float> InFront(const EncodeTask& task, Vec3<Float> light, Float alpha) {
   const Float through = Float(1.0f) - alpha;
   const auto& back = task.background_linear;

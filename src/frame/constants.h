@@ -51,7 +51,6 @@ static_assert(kMostDistance + 2.0 * kSteepestDepth * (2 * kGuardBand + kBlockSiz
 // tile always lies within one anchor's square, and the anchor does not depend on the tile size, so the image's bits do
 // not depend on it either.
 inline constexpr int kAnchorSize = 64;
-inline constexpr int kMaxTileSize = kAnchorSize;
 
 // --- Samples --------------------------------------------------------------------------------------------------------
 inline constexpr int kMaxSamples = 8;

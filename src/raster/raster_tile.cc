@@ -115,8 +115,8 @@ struct TriangleEdges {
     }
   }
 
-  // Whether a block is outside of one edge, cut by some, or inside of all. An edge function that is positive in the
-  // whole block becomes 0, which passes everywhere.
+  // Whether a block is outside of one edge, cut by some, or inside of all. An edge function that is nowhere
+  // negative in the block becomes 0, which passes everywhere.
   enum class Overlap { None, Part, Whole };
   HWY_INLINE Overlap InBlock(int x_px, int y_px, BlockEdges& out) const {
     constexpr std::int64_t kReach = kBlockSize * kSampleGrid - 1;

@@ -10,7 +10,7 @@ namespace facet {
 std::vector<PixelBlock> SpreadBlocks(int image_width, int image_height, std::uint64_t seed) {
   const int columns = (image_width + kBlockSide - 1) / kBlockSide;
   const int rows = (image_height + kBlockSide - 1) / kBlockSide;
-  // The first side * side points lie in as many different cells of a square; those cells that the image has count.
+  // The first side * side points lie in as many different cells of a square; those within the image are used.
   // That favours some of them, where it has not all: so all are moved by as much, and come in again at the other side.
   const std::uint32_t side = std::bit_ceil(std::uint32_t(std::max(columns, rows)));
   const std::uint64_t random = MixBits(MixBits(seed) ^ 0xB10C5u);

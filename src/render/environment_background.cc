@@ -5,7 +5,7 @@
 namespace facet {
 
 void EnvironmentBackground::CompositeUnder(const TileBuffers& tile, std::vector<glm::vec4>& pixels) const {
-  if (!IsThere()) return;
+  if (lighting_ == nullptr) return;
   BackgroundTask task;
   for (int c = 0; c < 3; ++c) {
     task.column[c] = directions_.column[c].data() + tile.x0;

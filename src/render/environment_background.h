@@ -18,8 +18,6 @@ class EnvironmentBackground {
   EnvironmentBackground(const FrameView& view, const LightingData& lighting)
       : lighting_(&lighting), directions_(MakeViewDirections(view)) {}
 
-  bool IsThere() const { return lighting_ != nullptr; }
-
   // Changes the pixels that are not completely covered. `pixels`: of the tile, tile_size a row.
   void CompositeUnder(const TileBuffers& tile, std::vector<glm::vec4>& pixels) const;
 

@@ -28,7 +28,7 @@ const PosedScene& FramePose::Pose(const PoseSettings& settings) {
 }
 
 WorkBeside FramePose::TangentsOf(const std::vector<bool>& drawable_visible, bool all) {
-  constexpr std::size_t kBytesPerCorner = 2;  // a corner takes 0.2 us, a byte of an image's file 0.03 to 0.12
+  constexpr std::size_t kBytesPerCorner = 2;  // a corner takes 0.2 us, a byte of an image file 0.03 to 0.12
   WorkBeside work;
   std::vector<std::size_t> missing;
   for (std::size_t i = 0; i < with_tangents_.size(); ++i) {

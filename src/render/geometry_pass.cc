@@ -29,7 +29,8 @@ void RunGeometry(const FrameView& view, const PosedScene& posed, const FramePlan
   std::uint64_t vertex_count = 0;
   std::size_t chunk_count = 0;
   MemoryBudget& budget = MemoryBudget::Current();
-  budget.Charge(posed.drawables.size(), sizeof(FrameDrawable) + sizeof(VertexRange), "drawables");
+  budget.Charge(posed.drawables.size(), sizeof(FrameDrawable) + sizeof(VertexRange) + sizeof(const Primitive*),
+                "drawables");
   frame.drawables.clear();
   frame.drawables.reserve(posed.drawables.size());
   for (std::size_t d = 0; d < posed.drawables.size(); ++d) {

@@ -32,9 +32,8 @@ struct WorkBeside {
 };
 
 // Decodes what visible materials read and `textures` lacks, and runs `beside`. An image that cannot be decoded gives a
-// warning. Throws
-// Error(MissingModule) where an image needs a module that is not installed, Error(OutOfMemory) for images beyond the
-// limits, before any is decoded where their headers say so.
+// warning. Throws Error(MissingModule) where an image needs a module that is not installed, Error(OutOfMemory) for
+// images beyond the limits, before any is decoded where their headers say so.
 void DecodeTextures(const Scene& scene, const std::vector<bool>& material_visible, TexelBits texels,
                     const FramePlan& plan, FrameTextures& textures, MemoryBudget& budget, const WorkBeside& beside,
                     RenderStats& stats);

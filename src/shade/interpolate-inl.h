@@ -106,7 +106,7 @@ HWY_INLINE void InterpolateFrom(const ShadeTask& task, Base base, T x, T y, Surf
 }
 
 // Interpolates the attributes that the material reads for fragment i of `task`, or for all lanes from i on. Others
-// become zero, except for texture coordinates, which are left unchanged.
+// become zero, except for the vertex colour, which becomes 1, and texture coordinates, which are left unchanged.
 template <class T>
 HWY_INLINE void InterpolateSurface(const ShadeTask& task, std::size_t i, Surface<T>& s) {
   const T x = Load<T>(task.x + i), y = Load<T>(task.y + i);

@@ -15,10 +15,10 @@ HWY_BEFORE_NAMESPACE();
 namespace facet {
 namespace HWY_NAMESPACE {
 
-// For the models, which read no texture coordinates but those of their textures: the others are not set. `surfaces` is
-// memory for this packet's and the next one's.
-// The texels of the next packet are prefetched before the current one is shaded, which hides the latency of memory.
-// Lanes beyond the end of the batch shade the caller's padding; their results are not read.
+// Shades all fragments of a task. The texels of the next packet are prefetched before the current one is shaded, which
+// hides the latency of memory. Lanes beyond the end of the batch shade the caller's padding; their results are unused.
+// `surfaces`: for the current packet and the next one. Texture coordinates that the material does not read keep the
+// values that they have there; shading models do not read them.
 template <class Shader>
 HWY_INLINE void ShadePackets(const ShadeTask& task, const Shader& shader, Surface<Float> (&surfaces)[2]) {
   const LightingView<Float> lighting(*task.lighting);
@@ -50,8 +50,8 @@ HWY_INLINE void ShadePackets(const ShadeTask& task, const Shader& shader, Surfac
   }
 }
 
-// For a shader of a user's own, which finds zero in the texture coordinates that the material does not read. Batches of
-// a few fragments are common, for which clearing is work that shows: the models would take up to 6 % more instructions.
+// The same for users' shaders: texture coordinates that the material does not read are zero. Shading models do without
+// this clearing, because in batches of few fragments it would take up to 6 % more instructions.
 template <class Shader>
 HWY_INLINE void ShadePackets(const ShadeTask& task, const Shader& shader) {
   Surface<Float> surfaces[2];

@@ -1,4 +1,5 @@
-// What all lobes of a closure share. A lobe is one way in which a surface reflects light. Each has its own file, and
+// What all lobes of a closure share. A lobe is one way in which a surface reflects light. Each has a file of its own
+// and these members:
 //   a constructor:                                   computes what depends on the view only;
 //   Vec3<T> Direct(const Incidence<T>&, ...) const;  its BRDF, in 1/steradian, for light from one direction;
 //   EnvironmentTerms<T> Environment(...) const;      its reflection of the environment.
