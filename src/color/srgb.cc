@@ -95,11 +95,4 @@ std::uint16_t LinearToSrgb16(float linear) {
   return static_cast<std::uint16_t>(std::floor(Encode(linear) * 65535.0 + 0.5));
 }
 
-LinearRgb ToLinear(Srgb8 color) {
-  const auto& table = Srgb8ToLinearTable();
-  return {table[color.r], table[color.g], table[color.b]};
-}
-
-Srgb8 ToSrgb8(LinearRgb color) { return {LinearToSrgb8(color.r), LinearToSrgb8(color.g), LinearToSrgb8(color.b)}; }
-
 }  // namespace facet

@@ -8,17 +8,6 @@
 
 namespace facet {
 
-// Linear light, Rec. 709 primaries.
-struct LinearRgb {
-  float r = 0.0f, g = 0.0f, b = 0.0f;
-};
-
-// The codes of an 8-bit sRGB image.
-struct Srgb8 {
-  std::uint8_t r = 0, g = 0, b = 0;
-  friend bool operator==(const Srgb8&, const Srgb8&) = default;
-};
-
 // From encoded to linear and back, computed in double and rounded. The linear segment continues below 0, the power
 // segment above 1; NaN stays NaN.
 float SrgbToLinear(float encoded);
@@ -31,9 +20,6 @@ const std::array<float, 256>& Srgb8ToLinearTable();
 // largest code.
 std::uint8_t LinearToSrgb8(float linear);
 std::uint16_t LinearToSrgb16(float linear);
-
-LinearRgb ToLinear(Srgb8 color);
-Srgb8 ToSrgb8(LinearRgb color);
 
 // Tables for exact encoding in kernels. thresholds[k] is the smallest float whose nearest code is at least k;
 // thresholds[0] = 0, and an infinity follows the last.

@@ -1,19 +1,32 @@
 #include "render/check_settings.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <string>
 
 #include "base/bytes_text.h"
 #include "facet/error.h"
 #include "facet/image.h"
 #include "frame/constants.h"
-#include "render/film_planes.h"
 
 namespace facet {
 namespace {
 
 void Refuse(const std::string& what, const std::string& accepted) {
   throw Error(ErrorCode::InvalidUsage, what, "render settings", accepted);
+}
+
+void CheckPlanes(const std::vector<PlaneKind>& planes) {
+  for (auto plane = planes.begin(); plane != planes.end(); ++plane) {
+    if (std::size_t(*plane) >= std::size(kPlanes)) {
+      Refuse("a plane of kind " + std::to_string(int(*plane)),
+             "0 to " + std::to_string(std::size(kPlanes) - 1) + " are accepted");
+    }
+    if (std::find(planes.begin(), plane, *plane) != plane) {
+      Refuse("the plane " + std::string(InfoOf(*plane).name) + " is asked for twice", "name each plane once");
+    }
+  }
 }
 
 }  // namespace

@@ -6,9 +6,18 @@
 
 #include "frame/tile.h"
 #include "light/lighting.h"
-#include "render/view_directions.h"
 
 namespace facet {
+
+// The directions from the eye through the pixels of an image, as the sum of a column's part and a row's part.
+// DirectionThrough(view, x + 0.5, y + 0.5), to the bit, is (column[.][x] + row[.][y]) + whole. Columns are followed by
+// kTaskPadding zeros.
+struct ViewDirections {
+  std::vector<double> column[3], row[3];
+  double whole[3] = {};
+};
+
+ViewDirections MakeViewDirections(const FrameView& view);
 
 // Serves all tiles of a frame. Thread-safe.
 class EnvironmentBackground {

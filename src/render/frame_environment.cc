@@ -11,7 +11,7 @@ namespace facet {
 namespace {
 
 // Charges the environment's image, its copies in linear light, and its prefiltered maps.
-void Count(const Image& image, const EnvironmentOptions& options, MemoryBudget& budget) {
+void Charge(const Image& image, const EnvironmentOptions& options, MemoryBudget& budget) {
   const auto size = std::size_t(SharpestLevelSize(image.width, options.max_size));
   const std::size_t floats = image.PixelCount() * (options.keep_image ? 2 : 1) + 3 * size * size;
   budget.Charge(image.bytes.size() + floats * 4 * sizeof(float), 1,
@@ -23,18 +23,18 @@ std::size_t BytesOf(const EnvironmentMap& map) { return (map.texels.size() + map
 
 constexpr const char* kPrepared = "a prepared environment";
 
-void CountPrepared(std::uint64_t bytes, MemoryBudget& budget) {
+void ChargePrepared(std::uint64_t bytes, MemoryBudget& budget) {
   budget.Charge(bytes, 1, kPrepared, {}, "scale its picture down");
 }
 
 std::shared_ptr<const EnvironmentMap> FromSource(const EnvironmentSource& source, const EnvironmentOptions& options,
                                                  MemoryBudget& budget, std::vector<std::string>& warnings) {
   std::uint64_t admitted = 0;
-  if (auto kept = source.Find(options, [&](std::uint64_t bytes) { CountPrepared(admitted = bytes, budget); }))
+  if (auto kept = source.Find(options, [&](std::uint64_t bytes) { ChargePrepared(admitted = bytes, budget); }))
     return kept;
   budget.Release(admitted, kPrepared);  // a cached map that is of no use takes no memory
   const auto image = source.Decode();
-  Count(*image, options, budget);
+  Charge(*image, options, budget);
   auto map = PrefilterEnvironment(*image, options);
   const std::string warning = source.Keep(options, *map);
   if (!warning.empty()) warnings.push_back(warning);
@@ -52,8 +52,8 @@ const EnvironmentMap* FrameEnvironment::Prepare(const FramePlan& plan, const Ren
   const auto image = is_image ? settings.environment.image : nullptr;
   const auto source = is_image && image == nullptr ? settings.environment.source : nullptr;
   const bool known = map_ != nullptr && options == options_ && image == image_ && source == source_;
-  if (image != nullptr) Count(*image, options, budget);
-  if (known && source != nullptr) CountPrepared(BytesOf(*map_), budget);
+  if (image != nullptr) Charge(*image, options, budget);
+  if (known && source != nullptr) ChargePrepared(BytesOf(*map_), budget);
   if (!known) {
     map_ = image != nullptr    ? PrefilterEnvironment(*image, options)
            : source != nullptr ? FromSource(*source, options, budget, stats.warnings)

@@ -10,10 +10,6 @@
 
 namespace facet {
 
-namespace {
-constexpr const char* kPosed = "posed geometry";
-}
-
 const PosedScene& FramePose::Pose(const PoseSettings& settings) {
   if (!posed_ || settings != settings_) {
     posed_.reset();

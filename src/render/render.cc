@@ -13,7 +13,6 @@
 #include "film/encode_pixels.h"
 #include "plan/frame_plan.h"
 #include "render/check_settings.h"
-#include "render/film_planes.h"
 #include "render/frame_environment.h"
 #include "render/frame_pose.h"
 #include "render/frame_view.h"
@@ -52,6 +51,15 @@ void PrepareFilm(int width, int rows, Film& film) {
   PreferHugePages(film.pixels.data(), film.pixels.capacity() * sizeof(glm::vec4));
 }
 
+// Gives the film these planes, of its width and height, reusing their memory. Their pixels are not set.
+void SizePlanes(const std::vector<PlaneKind>& planes, Film& film) {
+  film.planes.resize(planes.size());
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    film.planes[i].kind = planes[i];
+    film.planes[i].bytes.resize(std::size_t(film.width) * std::size_t(film.height) * InfoOf(planes[i]).PixelBytes());
+  }
+}
+
 }  // namespace
 
 // The output of a frame: a film, whole or in bands that use the same memory, or an image.
@@ -63,11 +71,17 @@ struct Renderer::FrameOutput {
   EncodeTask encode;
 
   // Charges the rows that are in memory at once.
-  void Charge(int width, int rows, MemoryBudget& budget) const {
-    budget.Charge(std::uint64_t(width) * std::uint64_t(rows), film != nullptr ? sizeof(glm::vec4) : encode.PixelBytes(),
-                  (film != nullptr ? "a film of " : "a picture of ") + std::to_string(width) + " x " +
+  void Charge(const RenderSettings& settings, int rows, MemoryBudget& budget) const {
+    const std::uint64_t pixels = std::uint64_t(settings.width) * std::uint64_t(rows);
+    budget.Charge(pixels, film != nullptr ? sizeof(glm::vec4) : encode.PixelBytes(),
+                  (film != nullptr ? "a film of " : "a picture of ") + std::to_string(settings.width) + " x " +
                       std::to_string(rows) + " pixels",
                   {}, "make the picture smaller");
+    std::uint64_t plane_bytes = 0;  // of a pixel
+    for (const PlaneKind plane : settings.planes) plane_bytes += InfoOf(plane).PixelBytes();
+    if (plane_bytes == 0) return;
+    budget.Charge(pixels, plane_bytes, "planes besides colour", {},
+                  "make the picture smaller, or ask for fewer planes");
   }
 };
 
@@ -85,8 +99,7 @@ class Renderer::Frames {
     MemoryBudget budget(settings.memory_limit);
     const MemoryBudget::Scope scope(budget);
     const int band_rows = std::min(band_tiles * grid.tile_size, settings.height);
-    output.Charge(settings.width, band_rows, budget);
-    ChargePlanes(settings.planes, settings.width, band_rows, budget);
+    output.Charge(settings, band_rows, budget);
     budget.Charge(HeldBytes(scene_), 1, "the scene", {}, "leave some out");
     const PosedScene& posed = pose_.Pose(PoseOf(settings));
     const FramePlan plan = MakeFramePlan(scene_, posed, settings);

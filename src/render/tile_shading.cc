@@ -68,8 +68,8 @@ void TileShading::Shade(const TileBuffers& tile, const TileRecords& records, con
   }
 }
 
-void TileShading::ShadeAlpha(const TileBuffers& tile, const TileRecords& records, const FrameMaterial& material,
-                             ShadedFragments& fragments) {
+void TileShading::ComputeAlpha(const TileBuffers& tile, const TileRecords& records, const FrameMaterial& material,
+                               ShadedFragments& fragments) {
   fragments.Resize();
   SelectAll(fragments.list.Size());
   ShadeBatch({tile, records, material}, fragments);
@@ -118,7 +118,7 @@ void TileShading::ShadePart(const Batch& batch, ShadedFragments& fragments) {
   task.alpha = alpha_.data();
   task.non_finite = batch.non_finite;
   if (alpha_only) {
-    facet::ShadeAlpha(task);
+    ShadeAlpha(task);
   } else if (batch.material.shader != nullptr) {
     batch.material.shader->Shade(task);
   } else {

@@ -33,8 +33,8 @@ class TileShading {
   void Shade(const TileBuffers& tile, const TileRecords& records, const LightingData& lighting,
              ShadedFragments& fragments, std::uint64_t& non_finite);
   // Computes the alpha of the fragments, which all have this material.
-  void ShadeAlpha(const TileBuffers& tile, const TileRecords& records, const FrameMaterial& material,
-                  ShadedFragments& fragments);
+  void ComputeAlpha(const TileBuffers& tile, const TileRecords& records, const FrameMaterial& material,
+                    ShadedFragments& fragments);
 
  private:
   struct Batch;

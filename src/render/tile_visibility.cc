@@ -4,11 +4,11 @@
 
 namespace facet {
 
-void TileCharge::Admit(std::size_t count, std::size_t size_each, std::size_t& admitted) {
-  if (count <= admitted) return;
-  const std::size_t more = std::max(count, admitted + admitted / 2) - admitted;
-  leases_.emplace_back(more, size_each, "fragments of a tile", "", "use smaller tiles or fewer threads");
-  admitted += more;
+void TileVisibility::Charge(std::size_t count, std::size_t bytes_each, std::size_t& charged) {
+  if (count <= charged) return;
+  const std::size_t more = std::max(count, charged + charged / 2) - charged;
+  leases_.emplace_back(more, bytes_each, "fragments of a tile", "", "use smaller tiles or fewer threads");
+  charged += more;
 }
 
 bool TileVisibility::Begin(int column, int row, std::size_t list) {
@@ -23,7 +23,7 @@ bool TileVisibility::Begin(int column, int row, std::size_t list) {
   records_.Clear();
   const TileLists& lists = view_.geometry.lists;
   const std::size_t count = CountOf(lists.opaque[list]) + CountOf(lists.masked[list]) + CountOf(lists.blended[list]);
-  charge_.AdmitRecords(count);
+  Charge(count, kRecordBytes, charged_records_);
   return count != 0;
 }
 
@@ -50,7 +50,7 @@ void TileVisibility::DrawMasked(std::span<const TileRun> runs) {
       FragmentList& list = masked_.list;
       list.Clear();
       RasterCollect(records_.Append({&part, 1}), behind_masked_, list);
-      shading_.ShadeAlpha(tile_, records_, material, masked_);
+      shading_.ComputeAlpha(tile_, records_, material, masked_);
       for (std::size_t i = 0; i < list.Size(); ++i) {
         if (!(masked_.alpha[i] >= material.factors.alpha_cutoff)) continue;
         WriteFragment(records_.Record(list.record[i]), list.record[i], list.pixel[i], list.samples[i], tile_);
@@ -64,11 +64,11 @@ void TileVisibility::CollectBlended(FragmentList& out) {
   constexpr std::size_t kBatch = 256;  // triangles
   const TileTriangles all = records_.Append(view_.geometry.lists.blended[list_]);
   for (std::size_t first = 0; first < all.count; first += kBatch) {
-    charge_.AdmitFragments(out.Size());
+    Charge(out.Size(), kFragmentBytes, charged_fragments_);
     RasterCollect({all.records + first, all.ids + first, std::min(kBatch, all.count - first)}, tile_, out,
                   CollectDepth::NearerOrEqual);
   }
-  charge_.AdmitFragments(out.Size());
+  Charge(out.Size(), kFragmentBytes, charged_fragments_);
 }
 
 }  // namespace facet

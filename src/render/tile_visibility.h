@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "base/memory_budget.h"
@@ -12,24 +13,6 @@
 #include "shade/attribute_setup.h"
 
 namespace facet {
-
-// Charges the triangles and fragments of a tile, which may be any number, to the memory budget. The few that nearly
-// every tile has are not counted.
-class TileCharge {
- public:
-  void AdmitRecords(std::size_t count) { Admit(count, kPerRecord, records_); }
-  void AdmitFragments(std::size_t count) { Admit(count, kPerFragment, fragments_); }
-
- private:
-  void Admit(std::size_t count, std::size_t size_each, std::size_t& admitted);
-
-  // Bytes. A record: its pointer, id, setup, and the index of the setup. A fragment: its own 7 bytes, the arrays of its
-  // shading, and its index in the order of layers. On average vectors have half of that in reserve.
-  static constexpr std::size_t kPerRecord = 40 + AttributeLayout::kMostStride * sizeof(float), kPerFragment = 120;
-
-  std::size_t records_ = std::size_t{1} << 14, fragments_ = std::size_t{1} << 16;  // charged so far
-  std::vector<MemoryLease> leases_;
-};
 
 // Keeps its working memory from tile to tile. Not thread-safe: one per worker.
 class TileVisibility {
@@ -55,13 +38,20 @@ class TileVisibility {
  private:
   void DrawMasked(std::span<const TileRun> runs);
 
+  // Charges the triangles and fragments of a tile, which may be any number, to the memory budget. The few that nearly
+  // every tile has are not counted. A record takes its pointer, id, setup, and the index of the setup; a fragment its
+  // own 7 bytes, the arrays of its shading, and its index in the order of layers; vectors have half of that in reserve.
+  void Charge(std::size_t count, std::size_t bytes_each, std::size_t& charged);
+  static constexpr std::size_t kRecordBytes = 40 + AttributeLayout::kMostStride * sizeof(float), kFragmentBytes = 120;
+
   const TiledView& view_;
   TileShading& shading_;
   std::size_t list_ = 0;
   TileBuffers tile_, behind_masked_;
   TileRecords records_;
   ShadedFragments masked_;
-  TileCharge charge_;
+  std::size_t charged_records_ = std::size_t{1} << 14, charged_fragments_ = std::size_t{1} << 16;
+  std::vector<MemoryLease> leases_;
 };
 
 }  // namespace facet

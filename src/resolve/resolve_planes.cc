@@ -3,7 +3,6 @@
 #include <limits>
 
 #include "resolve/planes/depth.h"
-#include "resolve/planes/plane_tile.h"
 #include "resolve/planes/triangle.h"
 
 namespace facet {
@@ -49,8 +48,7 @@ void PlaneResolver::Run(const VisibleTile& seen, std::size_t first, std::size_t 
   FindNearest(seen.tile, seen.nothing, nearest_);
   for (Plane& plane : planes) {
     const std::size_t pixel_bytes = InfoOf(plane.kind).PixelBytes();
-    Write(plane.kind, {seen.tile, seen.records, seen.view, seen.drawables, nearest_.data(),
-                       plane.bytes.data() + first * pixel_bytes, width * pixel_bytes});
+    Write(plane.kind, {seen, nearest_.data(), plane.bytes.data() + first * pixel_bytes, width * pixel_bytes});
   }
 }
 

@@ -7,19 +7,9 @@
 #include <vector>
 
 #include "facet/planes.h"
-#include "frame/geometry.h"
-#include "frame/tile.h"
+#include "resolve/planes/plane_tile.h"
 
 namespace facet {
-
-// What is visible in a tile. `records`: by their ids in tile.record; `drawables`: by ScreenTriangle::drawable.
-struct VisibleTile {
-  const TileBuffers& tile;
-  bool nothing = false;  // no triangle touches the tile, and its buffers are not cleared
-  const ScreenTriangle* const* records = nullptr;
-  const FrameView& view;
-  const FrameDrawable* drawables = nullptr;
-};
 
 // Keeps its working memory from tile to tile. Not thread-safe: one per worker.
 class PlaneResolver {

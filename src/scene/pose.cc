@@ -217,8 +217,6 @@ std::vector<std::vector<std::size_t>> DrawablesOfShapes(const Plan& plan) {
   return drawables;
 }
 
-constexpr const char* kPosed = "posed geometry";
-
 // The most memory that BuildCopy() takes, without that of tangents, which are charged separately.
 std::uint64_t CopyBytes(const Shape& shape) {
   const Primitive& p = *shape.primitive;

@@ -48,6 +48,9 @@ struct GeometryWithoutTangents {
   TextureRef normal_map;
 };
 
+// What posed geometry is called where its memory is charged.
+inline constexpr const char* kPosed = "posed geometry";
+
 struct PosedCamera {
   int camera = -1;  // index into Scene::cameras
   glm::dmat4 world_from_camera{1.0};

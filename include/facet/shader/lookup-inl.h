@@ -160,38 +160,6 @@ struct IndexList {
   }
 };
 
-// p[kScale * index + i] for i = 0 and 1.
-template <int kScale, class T>
-HWY_INLINE void FetchTwo(const std::int32_t* p, const IndexList<T>& index, IntOf<T>* out) {
-  const std::int32_t* at = index.of_lane;
-#if HWY_TARGET != HWY_SCALAR
-  if constexpr (std::is_same_v<T, Float>) {
-    const IntTag d;
-    const hn::Repartition<std::int64_t, IntTag> pairs;
-    const auto low = hn::BitCast(d, PairsInOrder<kScale>(pairs, p, at));
-    const auto high = hn::BitCast(d, PairsInOrder<kScale>(pairs, p, at + hn::MaxLanes(d) / 2));
-    out[0] = hn::ConcatEven(d, high, low);
-    out[1] = hn::ConcatOdd(d, high, low);
-    return;
-  }
-#endif
-  for (int i = 0; i < 2; ++i) out[i] = IntOf<T>(p[kScale * at[0] + i]);
-}
-// For i = 0, 1, 2 and 3.
-template <int kScale, class T>
-HWY_INLINE void FetchFour(const std::int32_t* p, const IndexList<T>& index, IntOf<T>* out) {
-  const std::int32_t* at = index.of_lane;
-#if HWY_TARGET != HWY_SCALAR
-  if constexpr (std::is_same_v<T, Float>) {
-    Int::Raw rows[4];
-    TransposedRows<kScale>(IntTag(), p, at, rows);
-    for (int i = 0; i < 4; ++i) out[i] = rows[i];
-    return;
-  }
-#endif
-  for (int i = 0; i < 4; ++i) out[i] = IntOf<T>(p[kScale * at[0] + i]);
-}
-
 template <class T>
 HWY_INLINE Vec4<T> FetchVec4(const float* p, IntOf<T> index) {
   if constexpr (!std::is_same_v<T, Float>) {

@@ -11,8 +11,8 @@ namespace facet {
 // 754's division, for a perspective camera, and -depth (0 without a sign) for an orthographic one.
 inline void WriteDepth(const PlaneTile& t) {
   constexpr float kNothing = std::numeric_limits<float>::infinity();
-  const float* depth = t.tile.depth.data();
-  if (t.view.perspective) {
+  const float* depth = t.seen.tile.depth.data();
+  if (t.seen.view.perspective) {
     WritePixels(t, kNothing, [depth](std::size_t sample) { return 1.0f / depth[sample]; });
   } else {
     WritePixels(t, kNothing, [depth](std::size_t sample) { return 0.0f - depth[sample]; });

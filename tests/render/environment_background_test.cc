@@ -1,4 +1,4 @@
-#include "render/view_directions.h"
+#include "render/environment_background.h"
 
 #include <gtest/gtest.h>
 
