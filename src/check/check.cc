@@ -234,7 +234,7 @@ class Check {
     result_.verdict = within || (difference && difference->equal) ? Verdict::Passed : Verdict::Failed;
     if (result_.verdict == Verdict::Failed) {
       result_.message =
-          difference ? "the film is equal, the developed picture is not: " + Summary(*difference) : other_size_;
+          difference ? "the film is equal, the encoded image is not: " + Summary(*difference) : other_size_;
     }
   }
 

@@ -56,7 +56,7 @@ std::string Text(Lines lines) {
   return text;
 }
 
-// Planes stand apart: their names are their own.
+// Planes are an object of their own, so that their names cannot clash with other keys.
 std::string Json(const Lines& lines) {
   nlohmann::ordered_json json;
   json["facet"] = Version();

@@ -115,7 +115,7 @@ void AddRequest(CLI::App& app, RenderRequest& request, LoadOptions& load, bool& 
   AddMemoryLimit(app, "Quality and speed", load.memory_limit);
 }
 
-// Planes of the film besides colour, for commands that say something of it.
+// Planes of the film besides colour, for commands that print something about the film.
 void AddPlanes(CLI::App& app, RenderRequest& request) {
   std::string names;
   for (const PlaneInfo& info : kPlanes) names += (names.empty() ? "" : ", ") + std::string(info.name);
@@ -215,7 +215,7 @@ CLI::App& AddInfo(CLI::App& program, InfoOptions& options) {
 }
 
 CLI::App& AddExplain(CLI::App& program, ExplainOptions& options) {
-  CommandPage page(program, "explain", "Say what a frame uses, leaves out and spends on what", "IN [OPTIONS]",
+  CommandPage page(program, "explain", "Say what a frame uses, what is disabled, and what each feature costs", "IN [OPTIONS]",
                    std::string("The options are those of render.\n\n") + kExitCodes);
   CLI::App& app = page.app();
   AddScene(app, options.input);

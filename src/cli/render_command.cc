@@ -125,7 +125,7 @@ void CheckMemory(const RenderOptions& options) {
                                  : "make the picture smaller, or write it as .png, which is done piece by piece";
   MemoryBudget budget(settings.memory_limit);
   budget.Charge(pixels, sizeof(glm::vec4), "a film of " + size, {}, remedy);
-  budget.Charge(2 * pixels, 4 * SizeOf(request.type), "its developed pixels and the encoder's copy", {}, remedy);
+  budget.Charge(2 * pixels, 4 * SizeOf(request.type), "its encoded pixels and the encoder's copy", {}, remedy);
 }
 
 // Loads, draws, encodes and writes.
@@ -256,7 +256,7 @@ void RenderToFile(RenderOptions& options) {
 
 }  // namespace
 
-// --threads bounds loading, tone mapping and encoding and writing too.
+// --threads also bounds loading, encoding and writing.
 void RunRender(RenderOptions options) {
   RunWithThreads(options.request.settings.threads, [&] { RenderToFile(options); });
 }

@@ -39,7 +39,7 @@ std::array<Time, 11> Times(const CommandStats& s) {
            {"geometry", "  geometry", r.geometry_seconds},
            {"raster", "  raster", r.raster_seconds},
            {"render", "render", s.render_seconds},
-           {"develop", "develop", s.encode_seconds},
+           {"encode", "encode", s.encode_seconds},
            {"write", "write", s.write_seconds},
            {"total", "total", s.total_seconds}}};
 }
@@ -122,7 +122,7 @@ std::string StatsJson(const CommandStats& stats) {
        {{"input", stats.input_bytes},
         {"textures", stats.render.texture_bytes},
         {"peak_resident", PeakResidentBytes()}}},
-      {"left_out", stats.render.disabled},
+      {"disabled", stats.render.disabled},
       {"warnings", stats.render.warnings},
   };
   // File names need not be UTF-8; JSON must be.

@@ -23,7 +23,7 @@ std::string Text(const Verification& v) {
       text += "  it was written by facet " + Printable(v.written_by) + "; this is " + Version() + "\n";
     }
   }
-  if (v.differing_pixels == 0) return text + "the developed pixels are equal\n";
+  if (v.differing_pixels == 0) return text + "the encoded pixels are equal\n";
   char largest[32];
   std::snprintf(largest, sizeof largest, "%.6g", v.max_difference);
   return text + std::to_string(v.differing_pixels) + " of " + std::to_string(v.pixels) +

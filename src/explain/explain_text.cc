@@ -148,7 +148,7 @@ std::pair<std::string, std::string> Split(const std::string& line) {
 }
 
 std::string DisabledText(const Explanation& e) {
-  std::vector<std::vector<std::string>> rows = {{"Left out", "because"}};
+  std::vector<std::vector<std::string>> rows = {{"Disabled", "because"}};
   for (const std::string& line : e.first.disabled) {
     const auto [what, why] = Split(line);
     rows.push_back({what, why});
@@ -196,7 +196,7 @@ Json TexturesJson(const Explanation& e) {
       texture["channels"] = t.kept->channels;
       texture["bits"] = t.kept->bits;
       texture["bytes"] = t.kept->bytes;
-      texture["dark"] = t.kept->empty;
+      texture["empty"] = t.kept->empty;
     }
     list.push_back(std::move(texture));
   }
@@ -286,7 +286,7 @@ std::string ToJson(const Explanation& e, const std::string& scene) {
         {"bytes", s.environment_bytes}}},
       {"punctual_lights", {{"directional", e.lights.directional}, {"point", e.lights.point}, {"spot", e.lights.spot}}},
       {"planes", PlanesJson(e)},
-      {"left_out", DisabledJson(e)},
+      {"disabled", DisabledJson(e)},
       {"first_frame",
        {{"pose_seconds", s.pose_seconds},
         {"texture_seconds", s.texture_seconds},

@@ -66,7 +66,8 @@ using VertexBuffer = PageVector<ScreenVertex>;
 enum class ScreenTriangleKind : std::uint8_t { Triangle, Line, Point };
 
 // A triangle on the screen, with vertices snapped to 1/256 pixel: a primitive, or one of the pieces that a clipped
-// triangle, a line or a point is made of. Its depth, clamped to [depth_min, depth_max], is
+// triangle, a line or a point is made of. In the lists of chunks and tiles it is called a record. Its depth, clamped to
+// [depth_min, depth_max], is
 //   depth(x, y) = depth_0 + depth_dx * (x - x_0) + depth_dy * (y - y_0), with x and y in pixels,
 // in double, because vertex 0 may be thousands of pixels away; it is rounded to float once per block (MakeBlockDepth).
 struct ScreenTriangle {

@@ -47,7 +47,8 @@ void ReadExtensions(Context& context) {
     if (supported) continue;
     Place(context.place, is_required ? "extensionsRequired" : "extensionsUsed")
         .Warn("ignored: " + name + " is not supported");
-    if (is_required && ++missing_count <= kMostNamed) missing += (missing.empty() ? "" : ", ") + (name.empty() ? "\"\"" : name);
+    if (!is_required || ++missing_count > kMostNamed) continue;
+    missing += (missing.empty() ? "" : ", ") + (name.empty() ? "\"\"" : name);
   }
   if (missing_count > kMostNamed) missing += " and " + std::to_string(missing_count - kMostNamed) + " more";
   if (missing_count > 0 && !context.options.ignore_required_extensions) {

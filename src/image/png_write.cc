@@ -156,7 +156,7 @@ void CheckKeyword(const std::string& key) {
 
 void CheckForm(const Image& image) {
   if (image.type == ChannelType::F32) {
-    throw Error(ErrorCode::InvalidUsage, "a PNG cannot hold floats", {}, "develop to 8 or 16 bits, or write .exr");
+    throw Error(ErrorCode::InvalidUsage, "a PNG cannot hold floats", {}, "convert to 8 or 16 bits, or write .exr");
   }
 }
 

@@ -39,7 +39,7 @@ Image Opaque(const Image& image, const std::filesystem::path& path) {
 Image Bytes(const Image& image, const std::filesystem::path& path) {
   if (image.type == ChannelType::F32) {
     throw Error(ErrorCode::InvalidUsage, "this format cannot hold floats", path.string(),
-                "develop to 8 bits, or write .exr, .hdr or .tif");
+                "convert to 8 bits, or write .exr, .hdr or .tif");
   }
   return WithType(image, ChannelType::U8);
 }

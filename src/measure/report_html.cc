@@ -158,7 +158,7 @@ struct Measure {
   double FilmError::*error;
 };
 constexpr Measure kRelative = {"Error", "error: relative RMSE, linear light", &FilmError::relative_rmse};
-constexpr Measure kFlip = {"FLIP", "mean FLIP of the developed pictures", &FilmError::flip};
+constexpr Measure kFlip = {"FLIP", "mean FLIP of the encoded images", &FilmError::flip};
 constexpr Measure kLargest = {"Largest difference", "largest difference, linear light", &FilmError::largest};
 
 // Everything that all diagrams show alike; x is left open.
@@ -321,7 +321,7 @@ std::string Uncertainty(const FilmError& error) {
 std::string PointsTable(const ErrorReport& report, const std::vector<Ranked>& ranked) {
   std::string html =
       "<h2>All points</h2>\n<p>By error; ● marks the Pareto front of error and time. Errors are over all "
-      "pixels and colours in linear light, but for FLIP, which is the mean over the developed pictures.</p>\n"
+      "pixels and colours in linear light, but for FLIP, which is the mean over the encoded images.</p>\n"
       "<div class=\"wide\"><table>\n<thead><tr><th class=\"number\">no.</th><th></th><th>settings</th>"
       "<th class=\"number\">time, median</th><th class=\"number\">fastest</th><th class=\"number\">slowest</th>"
       "<th class=\"number\">runs</th><th class=\"number\">memory</th><th class=\"number\">relative RMSE</th>"

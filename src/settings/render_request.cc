@@ -105,7 +105,7 @@ constexpr std::array kOptions = {
     RequestOption{"variant", kScene, "NAME|INDEX", "", "A material variant of the file [none]",
                   [](RenderRequest& r, Text, Text text) { r.variant = text; }},
     RequestOption{"without", kScene, "LIST", "none",
-                  "Features to leave out, with commas between them:\nbase-color-texture, metallic-roughness-texture,\n"
+                  "Features to disable, with commas between them:\nbase-color-texture, metallic-roughness-texture,\n"
                   "normal-texture, occlusion, emission,\nvertex-colors, environment-light, punctual-lights,\n"
                   "alpha-test, blending (drawn as opaque), skins,\nmorph-targets [none]",
                   [](RenderRequest& r, Text where, Text text) { r.settings.without = ParseFeatures(where, text); }},

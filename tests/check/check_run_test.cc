@@ -105,7 +105,7 @@ TEST_F(CheckFile, EqualFilmsAreEncodedAsTheirPictureWas) {
   const CheckedEntry entry = Only();
   EXPECT_EQ(entry.verdict, Verdict::Failed);
   EXPECT_EQ(entry.film, entry.expected_film);
-  EXPECT_EQ(entry.message.rfind("the film is equal, the developed picture is not: ", 0), 0u) << entry.message;
+  EXPECT_EQ(entry.message.rfind("the film is equal, the encoded image is not: ", 0), 0u) << entry.message;
   json["entries"][0]["expect"]["max-flip"] = 1;
   WriteJson(json);
   EXPECT_EQ(Only().verdict, Verdict::Passed);

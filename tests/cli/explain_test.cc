@@ -44,7 +44,7 @@ TEST(FacetExplain, JsonSaysWhatTheSceneHas) {
             int(info["lights"].size()));
 
   // A feature is either kept and has a cost, or is left out and has a reason.
-  const std::set<std::string> kept = Words(json["costs"], "feature"), out = Words(json["left_out"], "what");
+  const std::set<std::string> kept = Words(json["costs"], "feature"), out = Words(json["disabled"], "what");
   const std::vector<std::pair<std::string, std::string>> names = {
       {"base-color-texture", "base colour textures"},
       {"metallic-roughness-texture", "metallic-roughness textures"},
@@ -73,7 +73,7 @@ TEST(FacetExplain, JsonSaysWhatTheSceneHas) {
 TEST(FacetExplain, TextHasASectionForEach) {
   const Outcome run = RunFacet({"explain", kScenes + "animated.glb", "--size", "32x32", "--animation", "0"});
   ASSERT_EQ(run.exit_code, 0) << run.err;
-  for (const char* part : {"animated.glb, 32x32", "Geometry", "Materials", "Light", "Left out", "The first frame",
+  for (const char* part : {"animated.glb, 32x32", "Geometry", "Materials", "Light", "Disabled", "The first frame",
                            "A later frame takes", "--without skins", "--samples 1"}) {
     EXPECT_NE(run.out.find(part), std::string::npos) << part << "\n" << run.out;
   }

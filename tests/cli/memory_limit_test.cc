@@ -88,7 +88,7 @@ TEST_F(FacetMemoryLimit, RefusesFilms) {
       "this needs 4.0 GiB for a film of 16384 x 16384 pixels, and the memory limit is 1.0 GiB; make the picture "
       "smaller, or write it as .png, which is done piece by piece, or raise the limit");
   ExpectRefused(Draw(tiny_, folder_ / "out.exr", {"--size", "1024x1024", "--memory-limit", "20MiB"}),
-                "32.0 MiB for its developed pixels");
+                "32.0 MiB for its encoded pixels");
   // One row of tiles.
   ExpectRefused(Draw(tiny_, bands_, {"--size", "16384x16384", "--memory-limit", "7MiB"}),
                 "8.0 MiB for a film of 16384 x 32 pixels");

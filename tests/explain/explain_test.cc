@@ -209,8 +209,8 @@ TEST(Explain, TextAndJsonHaveTheSameNumbers) {
   EXPECT_EQ(json["costs"][0]["seconds"], 0.00125);
   EXPECT_EQ(json["costs"][0]["bytes"], -2048);
   EXPECT_EQ(json["materials"][0]["triangles"], 1234567);
-  EXPECT_EQ(json["left_out"][0]["what"], "skins");
-  EXPECT_EQ(json["left_out"][0]["why"], "nothing drawn has one");
+  EXPECT_EQ(json["disabled"][0]["what"], "skins");
+  EXPECT_EQ(json["disabled"][0]["why"], "nothing drawn has one");
   EXPECT_EQ(json["steady_frame"]["seconds"], 0.010);
 }
 

@@ -127,7 +127,7 @@ TEST(ParsePlanes, TakesNamesOnce) {
               std::string::npos)
         << wrong;
   }
-  EXPECT_NE(Complaint([] { ParsePlanes("--planes", "depth,depth"); }).find("depth stands in it twice"),
+  EXPECT_NE(Complaint([] { ParsePlanes("--planes", "depth,depth"); }).find("depth is named twice"),
             std::string::npos);
 }
 

@@ -184,7 +184,7 @@ std::vector<Case> TriangleCases() {
       {"triangles", "a hair 1e-6 pixels wide", "a line of pixels, or a division by its area",
        "no area on the grid of 1/256 pixel: nothing", "pixels covered", 0.0, MeasureHair},
       {"triangles", "zero area, repeated and non-finite vertices", "NaN spreads to neighbours, tiles and bounds",
-       "left out and counted", "pixels that differ", 0.0, MeasureBrokenTriangles},
+       "culled and counted", "pixels that differ", 0.0, MeasureBrokenTriangles},
       {"triangles", "nothing but broken vertices", "an endless loop or an empty bounding box inside out",
        "an empty picture, an automatic camera too", "pixels covered", 0.0, MeasureNothingLeft},
   };

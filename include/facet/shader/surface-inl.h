@@ -21,8 +21,8 @@ struct Surface {
   Vec3<T> position;  // metres, relative to the eye
   Vec3<T> view;      // unit, towards the eye
   Vec3<T> normal;    // unit, interpolated, on the viewer's side
-  // Interpolated but not normalised, as MikkTSpace demands for normal mapping; tangent.w is the handedness. Set only if
-  // the material has a normal texture.
+  // Interpolated but not normalised, as MikkTSpace demands for normal mapping; tangent.w is the handedness. The
+  // tangent is zero unless the material has a normal texture that could be decoded.
   Vec3<T> interpolated_normal;
   Vec4<T> tangent;
   Vec4<T> color;     // vertex colour, linear; 1 where there is none

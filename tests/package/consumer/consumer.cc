@@ -46,7 +46,7 @@ int main() {
     }
   }
   const facet::Image image = facet::EncodeFilm(film, {});
-  std::printf("covered %llu pixels, %d wrong channels, developed %dx%dx%d\n",
+  std::printf("covered %llu pixels, %d wrong channels, encoded %dx%dx%d\n",
               static_cast<unsigned long long>(stats.covered_pixels), wrong, image.width, image.height, image.channels);
   return wrong == 0 && stats.covered_pixels == 32 * 32 && image.channels == 4 ? 0 : 1;
 }
