@@ -215,8 +215,8 @@ CLI::App& AddInfo(CLI::App& program, InfoOptions& options) {
 }
 
 CLI::App& AddExplain(CLI::App& program, ExplainOptions& options) {
-  CommandPage page(program, "explain", "Say what a frame uses, what is disabled, and what each feature costs", "IN [OPTIONS]",
-                   std::string("The options are those of render.\n\n") + kExitCodes);
+  CommandPage page(program, "explain", "Say what a frame uses, what is disabled, and what each feature costs",
+                   "IN [OPTIONS]", std::string("The options are those of render.\n\n") + kExitCodes);
   CLI::App& app = page.app();
   AddScene(app, options.input);
   AddRequest(app, options.request, options.load, options.strict);

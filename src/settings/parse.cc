@@ -234,8 +234,7 @@ std::vector<PlaneKind> ParsePlanes(std::string_view option, std::string_view tex
   for (const int i : ParseChoices(option, text, names)) {
     const PlaneInfo& info = kPlanes[i];
     if (std::find(planes.begin(), planes.end(), info.kind) != planes.end()) {
-      Refuse(option, text, "a list of planes: " + std::string(info.name) + " is named twice",
-             "name each plane once");
+      Refuse(option, text, "a list of planes: " + std::string(info.name) + " is named twice", "name each plane once");
     }
     planes.push_back(info.kind);
   }

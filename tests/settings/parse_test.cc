@@ -127,8 +127,7 @@ TEST(ParsePlanes, TakesNamesOnce) {
               std::string::npos)
         << wrong;
   }
-  EXPECT_NE(Complaint([] { ParsePlanes("--planes", "depth,depth"); }).find("depth is named twice"),
-            std::string::npos);
+  EXPECT_NE(Complaint([] { ParsePlanes("--planes", "depth,depth"); }).find("depth is named twice"), std::string::npos);
 }
 
 TEST(Choose, TakesANameOrAnIndex) {
