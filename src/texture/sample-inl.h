@@ -385,7 +385,7 @@ HWY_INLINE void SumTexelsInLanes(const TextureData* const* textures, const Textu
         for (int k = 0; k < kCount; ++k) {
           const auto pair_bytes = hn::LoadDup128(d8, textures[k]->pair_bytes);
           const auto pairs = [&](const IndexList<T>& byte) HWY_ATTR {
-            const auto texels = EveryFourthRow<1>(d8, textures[k]->bytes.data(), byte.of_lane + first + j);
+            const auto texels = EveryFourthRow(d8, textures[k]->bytes.data(), byte.of_lane + first + j);
             const auto components = hn::BitCast(d16, hn::TableLookupBytesOr0(texels, pair_bytes));
             return kSparse ? hn::Xor(components, hn::Set(d16, std::int16_t{-32768})) : components;
           };

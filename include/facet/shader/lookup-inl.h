@@ -106,26 +106,15 @@ HWY_INLINE std::int32_t FetchOf16(const std::int32_t* p, std::int32_t index) { r
 // Loads of several adjacent values, p[index], p[index + 1] and so on, for each lane: one vector load per lane, and a
 // transposition. Processors gather element by element, so one gather for each value would take several times as long.
 #if HWY_TARGET != HWY_SCALAR
-// The two values at p + at[0], the two at p + at[1], and so on, in one vector.
-template <int kScale, class D64>
-HWY_INLINE hn::Vec<D64> PairsInOrder(D64 d, const std::int32_t* p, const std::int32_t* at) {
-  if constexpr (hn::MaxLanes(D64()) == 1) {
-    const hn::Repartition<std::int32_t, D64> two;  // p is aligned to 4 bytes only
-    return hn::BitCast(d, hn::LoadU(two, p + std::ptrdiff_t(at[0]) * kScale));
-  } else {
-    const hn::Half<D64> half;
-    return hn::Combine(d, PairsInOrder<kScale>(half, p, at + hn::MaxLanes(half)), PairsInOrder<kScale>(half, p, at));
-  }
-}
-// The 16 bytes at p + kScale * at[0], those at p + kScale * at[4], and so on, for every fourth lane, in one vector.
-template <int kScale, class D, class Number>
+// The 16 bytes at p + at[0], those at p + at[4], and so on, for every fourth lane, in one vector.
+template <class D, class Number>
 HWY_INLINE hn::Vec<D> EveryFourthRow(D d, const Number* p, const std::int32_t* at) {
   constexpr std::size_t kRows = hn::MaxLanes(D()) * sizeof(hn::TFromD<D>) / 16;
   if constexpr (kRows == 1) {
-    return hn::LoadU(d, p + std::ptrdiff_t(at[0]) * kScale);
+    return hn::LoadU(d, p + at[0]);
   } else {
     const hn::Half<D> half;
-    return hn::Combine(d, EveryFourthRow<kScale>(half, p, at + 2 * kRows), EveryFourthRow<kScale>(half, p, at));
+    return hn::Combine(d, EveryFourthRow(half, p, at + 2 * kRows), EveryFourthRow(half, p, at));
   }
 }
 // Transposes: rows[j] has four values each of lanes j, j + 4 and so on; the results have one value of every lane.
@@ -138,10 +127,10 @@ HWY_INLINE void Transpose(D d, const hn::Vec<D> (&rows)[4], hn::Vec<D>* out) {
   out[2] = hn::InterleaveLower(d, zw02, zw13);
   out[3] = hn::InterleaveUpper(d, zw02, zw13);
 }
-template <int kScale, class D, class Number>
+template <class D, class Number>
 HWY_INLINE void TransposedRows(D d, const Number* p, const std::int32_t* at, hn::Vec<D>* out) {
-  const hn::Vec<D> rows[4] = {EveryFourthRow<kScale>(d, p, at), EveryFourthRow<kScale>(d, p, at + 1),
-                              EveryFourthRow<kScale>(d, p, at + 2), EveryFourthRow<kScale>(d, p, at + 3)};
+  const hn::Vec<D> rows[4] = {EveryFourthRow(d, p, at), EveryFourthRow(d, p, at + 1),
+                              EveryFourthRow(d, p, at + 2), EveryFourthRow(d, p, at + 3)};
   Transpose(d, rows, out);
 }
 #endif
@@ -171,7 +160,7 @@ HWY_INLINE Vec4<T> FetchVec4(const float* p, IntOf<T> index) {
     alignas(64) std::int32_t at[kMaxLanes];
     Store(index, at);
     Float::Raw rows[4];
-    TransposedRows<1>(FloatTag(), p, at, rows);
+    TransposedRows(FloatTag(), p, at, rows);
     return {rows[0], rows[1], rows[2], rows[3]};
 #endif
   }
@@ -190,7 +179,7 @@ HWY_INLINE Vec3<T> WeighFour(const float* p, const IntOf<T> (&i)[4], const T (&w
     // For lanes kRow, kRow + 4 and so on. The weights of each are one of the four words of a 16-byte block.
     const auto sum = [&]<int kRow>(std::integral_constant<int, kRow>) HWY_ATTR {
       const auto term = [&](int k) HWY_ATTR {
-        return hn::Mul(EveryFourthRow<1>(d, p, at[k] + kRow), hn::Broadcast<kRow>(w[k].raw));
+        return hn::Mul(EveryFourthRow(d, p, at[k] + kRow), hn::Broadcast<kRow>(w[k].raw));
       };
       return hn::Add(hn::Add(term(0), term(1)), hn::Add(term(2), term(3)));
     };
