@@ -2,12 +2,15 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <glm/glm.hpp>
 #include <initializer_list>
 #include <memory>
 #include <optional>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -97,7 +100,35 @@ enum class Feature : std::uint32_t {
   Skins = 1u << 10,     // disabled: meshes are placed by their nodes
   MorphTargets = 1u << 11,
 };
-inline constexpr int kFeatureCount = 12;
+
+// The words for features in the option "without" and in the output of `facet explain`, in the order of the bits.
+struct FeatureWord {
+  Feature feature;
+  std::string_view word;
+};
+inline constexpr auto kFeatureWords = std::to_array<FeatureWord>({
+    {Feature::BaseColorTexture, "base-color-texture"},
+    {Feature::MetallicRoughnessTexture, "metallic-roughness-texture"},
+    {Feature::NormalTexture, "normal-texture"},
+    {Feature::Occlusion, "occlusion"},
+    {Feature::Emission, "emission"},
+    {Feature::VertexColors, "vertex-colors"},
+    {Feature::EnvironmentLight, "environment-light"},
+    {Feature::PunctualLights, "punctual-lights"},
+    {Feature::AlphaTest, "alpha-test"},
+    {Feature::Blending, "blending"},
+    {Feature::Skins, "skins"},
+    {Feature::MorphTargets, "morph-targets"},
+});
+inline constexpr int kFeatureCount = kFeatureWords.size();
+static_assert(
+    [] {
+      for (std::size_t i = 0; i < kFeatureWords.size(); ++i) {
+        if (static_cast<std::uint32_t>(kFeatureWords[i].feature) != 1u << i) return false;
+      }
+      return true;
+    }(),
+    "each feature has a word, in the order of the bits");
 
 class FeatureSet {
  public:

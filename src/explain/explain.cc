@@ -20,7 +20,7 @@ constexpr int kFewestPairs = 5, kMostPairs = 41;
 constexpr double kSecondsOfPairs = 0.3;  // of a feature, where the fewest do not take longer
 constexpr double kSecondsOfPreparation = 0.5;
 
-// What a material uses, as the words of FeatureWords() have it.
+// What a material uses, as the words of kFeatureWords have it.
 FeatureSet UsedFeatures(const FrameMaterial& material) {
   FeatureSet used;
   ForEachSlot(material.features, [&](Slot slot) { used.Add(InfoOf(slot).feature); });
@@ -37,7 +37,7 @@ ExplainedMaterial Describe(const Scene& scene, const PlannedMaterial& planned) {
   if (planned.material >= 0) material.name = scene.materials[std::size_t(planned.material)].name;
   material.lit = planned.frame.Has(kLit);
   const FeatureSet used = UsedFeatures(planned.frame);
-  for (const FeatureWord& known : FeatureWords()) {
+  for (const FeatureWord& known : kFeatureWords) {
     if (used.Has(known.feature)) material.features.emplace_back(known.word);
   }
   if (planned.frame.Has(kDoubleSided)) material.features.emplace_back("double-sided");
@@ -109,10 +109,10 @@ std::vector<Ablation> Ablations(const RenderSettings& settings, const FramePlan&
     return ablations.emplace_back(Ablation{std::move(feature), std::move(option), settings}).settings;
   };
   std::string already;  // the option is given once, with the whole list
-  for (const FeatureWord& known : FeatureWords()) {
+  for (const FeatureWord& known : kFeatureWords) {
     if (settings.without.Has(known.feature)) already += std::string(known.word) + ",";
   }
-  for (const FeatureWord& known : FeatureWords()) {
+  for (const FeatureWord& known : kFeatureWords) {
     if (!plan.uses.Has(known.feature)) continue;
     const std::string word(known.word);
     add(word, "--without " + already + word).without.Add(known.feature);

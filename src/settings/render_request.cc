@@ -26,21 +26,6 @@ constexpr std::string_view kOutput = "Output", kCamera = "Camera", kScene = "Sce
 
 using Text = std::string_view;
 
-constexpr std::array<FeatureWord, kFeatureCount> kFeatureWords = {{
-    {Feature::BaseColorTexture, "base-color-texture"},
-    {Feature::MetallicRoughnessTexture, "metallic-roughness-texture"},
-    {Feature::NormalTexture, "normal-texture"},
-    {Feature::Occlusion, "occlusion"},
-    {Feature::Emission, "emission"},
-    {Feature::VertexColors, "vertex-colors"},
-    {Feature::EnvironmentLight, "environment-light"},
-    {Feature::PunctualLights, "punctual-lights"},
-    {Feature::AlphaTest, "alpha-test"},
-    {Feature::Blending, "blending"},
-    {Feature::Skins, "skins"},
-    {Feature::MorphTargets, "morph-targets"},
-}};
-
 // Words with commas between them, or "none".
 FeatureSet ParseFeatures(Text where, Text text) {
   std::vector<Text> words;
@@ -201,8 +186,6 @@ CameraChoice PlacedCamera(const RenderRequest& request, const Scene& scene) {
 }
 
 }  // namespace
-
-std::span<const FeatureWord, kFeatureCount> FeatureWords() { return kFeatureWords; }
 
 std::span<const RequestOption> RequestOptions() { return kOptions; }
 

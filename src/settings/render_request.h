@@ -44,13 +44,6 @@ struct RequestOption {
   std::string_view sweep = {};
 };
 
-// The word for a feature in the option "without".
-struct FeatureWord {
-  Feature feature;
-  std::string_view word;
-};
-std::span<const FeatureWord, kFeatureCount> FeatureWords();
-
 // In the order of the help page.
 std::span<const RequestOption> RequestOptions();
 
