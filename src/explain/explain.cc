@@ -20,11 +20,13 @@ constexpr int kFewestPairs = 5, kMostPairs = 41;
 constexpr double kSecondsOfPairs = 0.3;  // of a feature, where the fewest do not take longer
 constexpr double kSecondsOfPreparation = 0.5;
 
-// What a material uses, as the words of kFeatureWords have it.
+// What a material uses, of kFeatureWords.
 FeatureSet UsedFeatures(const FrameMaterial& material) {
   FeatureSet used;
   ForEachSlot(material.features, [&](Slot slot) { used.Add(InfoOf(slot).feature); });
-  if (material.Has(kEmission)) used.Add(Feature::Emission);
+  for (const FactorFeature& factor : kFactorFeatures) {
+    if (material.Has(factor.bit)) used.Add(InfoOf(factor.slot).feature);
+  }
   if (material.Has(kAlphaTest)) used.Add(Feature::AlphaTest);
   if (material.Has(kAlphaBlend)) used.Add(Feature::Blending);
   if (material.vertex_colors) used.Add(Feature::VertexColors);

@@ -16,11 +16,11 @@ MaterialFeatures FeaturesOf(const Material& m, bool on_surface) {
   set(m.alpha_mode == AlphaMode::Blend, kAlphaBlend);
   set(m.double_sided, kDoubleSided);
   set(lit, kLit);
-  set((model.texture_slots & BitOf(Slot::Emissive)) != 0 && Emits(m), kEmission);
-  for (const SlotInfo& slot : kSlots) {
-    const bool is_read = (model.texture_slots & BitOf(slot.slot)) != 0 && (lit || !slot.needs_light);
-    set(bool(m.*slot.ref) && is_read && slot.is_visible(m), BitOf(slot.slot));
-  }
+  const auto shows = [&](const SlotInfo& slot) {
+    return (model.texture_slots & BitOf(slot.slot)) != 0 && (lit || !slot.needs_light) && slot.is_visible(m);
+  };
+  for (const FactorFeature& factor : kFactorFeatures) set(shows(InfoOf(factor.slot)), factor.bit);
+  for (const SlotInfo& slot : kSlots) set(bool(m.*slot.ref) && shows(slot), BitOf(slot.slot));
   const bool is_metal = m.metallic_factor == 1.0f && (features & BitOf(Slot::MetallicRoughness)) == 0;
   set(lit && !is_metal, kDiffuseLobe);
   return features;

@@ -85,6 +85,21 @@ static_assert(
     }(),
     "rows stand in the order of Slot");
 
+// Features that a factor states, with or without the texture that it scales.
+struct FactorFeature {
+  MaterialFeatures bit;
+  Slot slot;         // its texture: its row says which feature it is, who reads it, and when it is visible
+  const char* name;  // in messages, like the next
+  const char* why_none;
+  bool (*is_stated)(const Material&);
+  void (*disable)(Material&);
+};
+inline constexpr auto kFactorFeatures = std::to_array<FactorFeature>({
+    {kEmission, Slot::Emissive, "emission", "no drawn material emits",
+     [](const Material& m) { return m.emissive_factor != glm::vec3(0.0f); },
+     [](Material& m) { m.emissive_factor = glm::vec3(0.0f); }},
+});
+
 // Calls body(Slot) for each texture whose bit is set, in the order of the table.
 template <class Body>
 constexpr void ForEachSlot(MaterialFeatures features, const Body& body) {

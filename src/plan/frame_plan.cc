@@ -89,7 +89,9 @@ class Planner {
       TextureRef& ref = m.*slot.ref;
       disable(slot.feature, bool(ref), [&ref] { ref = {}; });
     }
-    disable(Feature::Emission, m.emissive_factor != glm::vec3(0.0f), [&m] { m.emissive_factor = glm::vec3(0.0f); });
+    for (const FactorFeature& factor : kFactorFeatures) {
+      disable(InfoOf(factor.slot).feature, factor.is_stated(m), [&] { factor.disable(m); });
+    }
     disable(Feature::VertexColors, colors, [&colors] { colors = false; });
     const auto opaque = [&m] { m.alpha_mode = AlphaMode::Opaque; };
     disable(Feature::AlphaTest, m.alpha_mode == AlphaMode::Mask, opaque);
@@ -177,12 +179,15 @@ FramePlan MakeFramePlan(const Scene& scene, const PosedScene& posed, const Rende
   };
 
   for (const SlotInfo& slot : kSlots) {
-    if (slot.feature == Feature::Emission) continue;  // handled below, because it also has a factor
+    const auto has_factor = [&](const FactorFeature& factor) { return InfoOf(factor.slot).feature == slot.feature; };
+    if (std::ranges::any_of(kFactorFeatures, has_factor)) continue;  // handled below
     decide_of_materials(any_has(BitOf(slot.slot)), slot.feature, std::string(slot.name) + "s",
                         "no drawn material has one");
   }
   if (!any_has(kTangentSpaceBits)) plan.disabled.emplace_back("tangents: no normal texture is read");
-  decide_of_materials(any_has(kEmission), Feature::Emission, "emission", "no drawn material emits");
+  for (const FactorFeature& factor : kFactorFeatures) {
+    decide_of_materials(any_has(factor.bit), InfoOf(factor.slot).feature, factor.name, factor.why_none);
+  }
   decide_of_materials(any([](const FrameMaterial& m) { return m.vertex_colors; }), Feature::VertexColors,
                       "vertex colours", "no drawn geometry has them");
 
