@@ -38,7 +38,9 @@ class Planner {
 
  private:
   PlannedMaterial Plan(Material material, int index, bool on_surface, bool colors, bool flat) {
-    if (flat) material.normal_texture = {};
+    for (const SlotInfo& slot : kSlots) {
+      if (flat && slot.tangent_space) material.*slot.ref = {};
+    }
     Disable(material, colors);
     PlannedMaterial planned;
     planned.material = index;
@@ -142,7 +144,9 @@ PoseSettings PoseOf(const RenderSettings& settings) {
   pose.time = settings.time;
   pose.variant = settings.variant;
   pose.generate_tangents = settings.tangents == TangentSource::Generated;
-  pose.normal_textures = !settings.without.Has(Feature::NormalTexture);
+  for (const SlotInfo& slot : kSlots) {
+    if (settings.without.Has(slot.feature)) pose.tangent_space_textures &= ~BitOf(slot.slot);
+  }
   pose.skins = !settings.without.Has(Feature::Skins);
   pose.morph_targets = !settings.without.Has(Feature::MorphTargets);
   return pose;

@@ -74,12 +74,11 @@ int MaterialOf(const Primitive& primitive, int variant) {
 }
 
 // The first texture that shading reads in tangent space, by the rule of the frame plan; null: none.
-const TextureRef* TangentSpaceTexture(const Scene& scene, const Material& material) {
-  const MaterialFeatures read = FeaturesOf(material);
+const TextureRef* TangentSpaceTexture(const Scene& scene, const Material& material, MaterialFeatures among) {
+  const MaterialFeatures read = FeaturesOf(material) & among;
   for (const SlotInfo& slot : kSlots) {
     const TextureRef& ref = material.*slot.ref;
-    const bool is_read = slot.tangent_space && (read & BitOf(slot.slot)) != 0;
-    if (is_read && scene.textures[std::size_t(ref.texture)].image >= 0) return &ref;
+    if ((read & BitOf(slot.slot)) != 0 && scene.textures[std::size_t(ref.texture)].image >= 0) return &ref;
   }
   return nullptr;
 }
@@ -89,7 +88,7 @@ Shape MakeShape(const Scene& scene, const Primitive& primitive, int material, co
   shape.primitive = &primitive;
   if (material >= 0 && ClassOf(primitive.topology) == PrimitiveClass::Triangles) {
     const Material& used = scene.materials[std::size_t(material)];
-    const TextureRef* const texture = settings.normal_textures ? TangentSpaceTexture(scene, used) : nullptr;
+    const TextureRef* const texture = TangentSpaceTexture(scene, used, settings.tangent_space_textures);
     shape.needs_tangents =
         texture != nullptr && (settings.generate_tangents || primitive.normals.empty() || primitive.tangents.empty());
     if (texture != nullptr) shape.normal_map = *texture;
