@@ -50,7 +50,7 @@ class Planner {
     f.vertex_colors = colors;
     f.alpha_mode = material.alpha_mode;
     f.factors = FactorsOf(material);
-    f.model = f.Has(kLit) ? material.model : ShadingModel::Unlit;
+    f.model = on_surface ? material.model : ShadingModel::Unlit;
     const auto i = std::size_t(index);
     const bool has_own =
         index >= 0 && i < settings_.material_shaders.size() && settings_.material_shaders[i] != nullptr;
