@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <string>
 #include <string_view>
 
 #include "material/models/models.h"
@@ -19,24 +20,29 @@ class MaterialReader {
   Material Read() {
     Material out;
     out.name = NameOf(object_, place_);
-    const Place extensions_place(place_, "extensions");
     ForEachParameter([&](const auto& parameter) {
       auto& value = out.*parameter.member;
       const char* const name = parameter.gltf_group;
       if (name == nullptr) return ReadValue(object_, place_, parameter, value);
-      const Place group_place(IsExtension(name) ? extensions_place : place_, name);
-      if (const Json* group = Group(name)) ReadValue(*group, group_place, parameter, value);
+      if (const Json* group = Group(name)) ReadValue(*group, PlaceOf(name), parameter, value);
     });
     return out;
   }
 
  private:
-  // An object in the material, or one of its extensions; null if there is none. An error in it is reported once.
-  const Json* Group(const char* name) {
+  // An object in the material, one of its extensions, or an object in one of those ("GROUP.OBJECT"); null if there is
+  // none. An error in it is reported once.
+  const Json* Group(const std::string& name) {
     const auto [known, is_new] = groups_.try_emplace(name);
-    if (is_new) known->second = (IsExtension(name) ? ExtensionOf : LenientObject)(object_, name, place_);
-    return known->second;
+    if (!is_new) return known->second;
+    if (const std::size_t dot = name.find('.'); dot != name.npos) {
+      const std::string outer = name.substr(0, dot);
+      const Json* const object = Group(outer);
+      return known->second = object ? LenientObject(*object, name.c_str() + dot + 1, PlaceOf(outer)) : nullptr;
+    }
+    return known->second = (IsExtension(name) ? ExtensionOf : LenientObject)(object_, name.c_str(), place_);
   }
+  Place PlaceOf(std::string_view group) const { return {IsExtension(group) ? extensions_place_ : place_, group}; }
 
   // Clamps to the range, with a warning.
   static float Clamp(double value, ParameterRange range, const Place& where) {
@@ -77,10 +83,9 @@ class MaterialReader {
       if (extension != nullptr && ExtensionOf(object, extension, place) != nullptr) out = model.model;
     }
   }
-  void ReadValue(const Json& object, const Place& place, const Parameter<TextureRef>& parameter, TextureRef& out) {
-    const char* const name = parameter.gltf_name;
-    const Json* info = &object == &object_ ? Group(name) : LenientObject(object, name, place);
-    if (info) out = ReadRef(*info, Place(place, name));
+  void ReadValue(const Json&, const Place& place, const Parameter<TextureRef>& parameter, TextureRef& out) {
+    const std::string outer = parameter.gltf_group ? std::string(parameter.gltf_group) + "." : "";
+    if (const Json* info = Group(outer + parameter.gltf_name)) out = ReadRef(*info, Place(place, parameter.gltf_name));
   }
 
   static void SetTexCoord(const Json& object, const Place& place, TextureRef& ref) {
@@ -111,7 +116,8 @@ class MaterialReader {
   const std::size_t texture_count_;
   const Json& object_;
   const Place& place_;
-  std::map<std::string_view, const Json*> groups_;  // that were asked for
+  const Place extensions_place_{place_, "extensions"};
+  std::map<std::string, const Json*> groups_;  // that were asked for
 };
 
 }  // namespace

@@ -17,8 +17,10 @@ struct ParameterRange {
 
 template <class Value>
 struct Parameter {
-  const char* name;        // in messages
-  const char* gltf_group;  // object in the glTF material that has it, or extension; null: the material
+  const char* name;  // in messages
+  // The object in the glTF material that has it, an extension, or an object in that: "EXTENSION.OBJECT". Null: the
+  // material itself.
+  const char* gltf_group;
   const char* gltf_name;
   Value Material::*member;
   ParameterRange range = {};  // of numbers
