@@ -13,26 +13,13 @@
 
 namespace facet {
 
-// The inputs of the metallic-roughness model at a point: like MaterialInputs<double>, but outside of lane code.
-struct ShadingInputs {
-  glm::dvec3 base_color{1.0};
-  double metallic = 1.0, perceptual_roughness = 1.0;
-  glm::dvec3 normal{0.0, 0.0, 1.0};  // unit, perturbed by the normal texture
-  double occlusion = 1.0;
-  glm::dvec3 emissive{0.0};
-};
-
 class ExactMaterial {
  public:
-  ShadingModel Model() const { return model_; }
-  AlphaMode Mode() const { return material_.alpha_mode; }
-  bool IsDoubleSided() const { return (features_ & kDoubleSided) != 0; }
-  double AlphaCutoff() const { return double(material_.alpha_cutoff); }
-
+  // Its features, factors and model; its textures are read below.
+  const FrameMaterial& Frame() const { return frame_; }
   // Factor times texture times vertex colour: linear, straight alpha.
   glm::dvec4 BaseColor(const SurfacePoint& point) const;
-  glm::dvec3 Emission(const SurfacePoint& point) const;
-  ShadingInputs Inputs(const SurfacePoint& point, const glm::dvec3& base_color) const;
+  glm::dvec4 Read(Slot slot, const SurfacePoint& point) const;
 
  private:
   friend std::vector<ExactMaterial> MakeExactMaterials(const Scene&, const FramePlan&, std::vector<std::string>&);
@@ -43,14 +30,8 @@ class ExactMaterial {
     int tex_coord = 0;
     UvTransform transform{TextureRef{}};
   };
-  bool Has(MaterialFeatures feature) const { return (features_ & feature) != 0; }
-  glm::dvec4 Read(Slot slot, const SurfacePoint& point) const;
-  glm::dvec3 Normal(const SurfacePoint& point) const;
 
-  MaterialFeatures features_ = 0;
-  ShadingModel model_ = ShadingModel::MetallicRoughness;
-  bool vertex_colors_ = false;
-  Material material_;
+  FrameMaterial frame_;
   Use uses_[kSlotCount];  // by Slot
 };
 

@@ -4,22 +4,16 @@
 #include <cmath>
 
 #include "light/lighting-inl.h"
-#include "material/closure-inl.h"
 #include "math/elementary.h"
+#include "reference/exact_source-inl.h"
 
-// Compiled for the baseline instruction set, like the functions that it calls: on Arm their target attributes must
-// agree.
 HWY_BEFORE_NAMESPACE();
 namespace facet {
 namespace {
 
-namespace lanes = HWY_NAMESPACE;
 using lanes::Vec3;
 
 constexpr double kPiDouble = 3.14159265358979324;
-
-Vec3<double> ToLanes(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
-glm::dvec3 FromLanes(const Vec3<double>& v) { return {v.x, v.y, v.z}; }
 
 // The Lighting for MakeClosure() and EvaluateClosure(), with exact albedos at the closure's roughness.
 class ExactLighting {
@@ -119,19 +113,17 @@ glm::dvec3 ReflectedEnvironment(const lanes::Closure<double>& closure, const Exa
 
 }  // namespace
 
-glm::dvec3 RadianceTowardEye(const ShadingInputs& in, const SurfacePoint& point, const ExactLight& light,
-                             const SampleRun& run) {
-  lanes::MaterialInputs<double> inputs{};
-  inputs.base_color = ToLanes(in.base_color);
-  inputs.metallic = in.metallic;
-  inputs.perceptual_roughness = in.perceptual_roughness;
-  inputs.normal = ToLanes(in.normal);
+glm::dvec3 RadianceTowardEye(const ExactMaterial& material, const glm::dvec3& base_color, const SurfacePoint& point,
+                             const ExactLight& light, const SampleRun& run) {
+  const ExactSource source{material, point};
+  const auto in =
+      lanes::ReadInputs<double>(source, ToLanes(glm::dvec4(base_color, 1.0)), material.Frame().features);
   const AlbedoRow row =
       light.albedos.Row(lanes::Clamp(in.perceptual_roughness, double(lanes::kMinPerceptualRoughness), 1.0));
   const ExactLighting lighting(row);
-  const auto closure = lanes::MakeClosure(inputs, ToLanes(point.view), lighting);
+  const auto closure = lanes::MakeClosure(in, ToLanes(point.view), lighting);
 
-  glm::dvec3 radiance = in.emissive;
+  glm::dvec3 radiance = FromLanes(in.emissive);
   for (const PunctualLight& punctual : light.punctual) {
     const auto sample = lanes::SamplePunctual(punctual, ToLanes(point.position));
     radiance += FromLanes(lanes::EvaluateClosure(closure, sample.direction, lighting) * sample.irradiance);

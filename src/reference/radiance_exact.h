@@ -35,8 +35,8 @@ struct SampleRun {
 // Spherical Caps) and of the cosine.
 //
 // Of the model's limits, kMinPerceptualRoughness holds for the environment as well: what is smoother reflects it in a
-// lobe 0.2 degrees wide, where the rasterizer shows a mirror.
-glm::dvec3 RadianceTowardEye(const ShadingInputs& in, const SurfacePoint& point, const ExactLight& light,
-                             const SampleRun& run);
+// lobe 0.2 degrees wide, where the rasterizer shows a mirror. `base_color`: the material's at this point.
+glm::dvec3 RadianceTowardEye(const ExactMaterial& material, const glm::dvec3& base_color, const SurfacePoint& point,
+                             const ExactLight& light, const SampleRun& run);
 
 }  // namespace facet

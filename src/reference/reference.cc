@@ -107,7 +107,7 @@ class ReferenceScene {
   std::vector<bool> DoubleSided() const {
     std::vector<bool> result;
     for (const int material : plan_.material_of_drawable) {
-      result.push_back(materials_[std::size_t(material)].IsDoubleSided());
+      result.push_back(materials_[std::size_t(material)].Frame().Has(kDoubleSided));
     }
     return result;
   }
@@ -126,7 +126,7 @@ class ReferenceScene {
     };
     bool others = false;
     for (const Hit& hit : scratch.hits) {
-      if (MaterialAt(hit).Mode() == AlphaMode::Opaque) {
+      if (MaterialAt(hit).Frame().alpha_mode == AlphaMode::Opaque) {
         consider(hit);
       } else {
         others = true;
@@ -136,12 +136,12 @@ class ReferenceScene {
     if (others) {
       for (const Hit& hit : scratch.hits) {
         const ExactMaterial& material = MaterialAt(hit);
-        if (material.Mode() != AlphaMode::Mask || (nearest != nullptr && hit.depth <= nearest->depth)) continue;
-        if (material.BaseColor(geometry_.SurfaceAt(hit)).w >= material.AlphaCutoff()) consider(hit);
+        if (material.Frame().alpha_mode != AlphaMode::Mask || (nearest != nullptr && hit.depth <= nearest->depth)) continue;
+        if (material.BaseColor(geometry_.SurfaceAt(hit)).w >= double(material.Frame().factors.alpha_cutoff)) consider(hit);
       }
       for (const Hit& hit : scratch.hits) {
         const bool seen = nearest == nullptr || hit.depth >= nearest->depth;
-        if (seen && MaterialAt(hit).Mode() == AlphaMode::Blend) scratch.layers.push_back(hit);
+        if (seen && MaterialAt(hit).Frame().alpha_mode == AlphaMode::Blend) scratch.layers.push_back(hit);
       }
       std::stable_sort(scratch.layers.begin(), scratch.layers.end(),
                        [](const Hit& a, const Hit& b) { return a.depth < b.depth; });

@@ -8,7 +8,7 @@
 #endif
 
 #include "facet/shader/surface-inl.h"
-#include "material/closure-inl.h"
+#include "material/read-inl.h"
 #include "plan/frame_material.h"
 #include "texture/sample-inl.h"
 
@@ -141,13 +141,13 @@ class MaterialView {
   HWY_INLINE Vec3<T> Normal(const Surface<T>& s) const {
     TextureReader<T> own(s);
     TextureReader<T>& textures = ReaderOf(s, own);
-    return Normal(s, textures);
+    return MappedNormal<T>(Source{m_, s, textures}, Slot::Normal, m_.factors.normal_scale);
   }
 
   HWY_INLINE Vec3<T> Emissive(const Surface<T>& s) const {
     TextureReader<T> own(s);
     TextureReader<T>& textures = ReaderOf(s, own);
-    return Emissive(textures);
+    return ReadEmission<T>(Source{m_, s, textures});
   }
 
   // All inputs of the metallic-roughness model.
@@ -156,21 +156,27 @@ class MaterialView {
     TextureReader<T>& textures = ReaderOf(s, own);
     textures.ReadAll(m_);
     const Vec4<T> base = BaseColor(s, textures);
-    T metallic(m_.factors.metallic), perceptual_roughness(m_.factors.perceptual_roughness), occlusion(1.0f);
-    if (m_.Reads(Slot::MetallicRoughness)) {
-      const Vec4<T> texel = textures.template Read<kG | kB>(m_.Texture(Slot::MetallicRoughness));
-      perceptual_roughness = perceptual_roughness * texel.y;
-      metallic = metallic * texel.z;
-    }
-    if (m_.Reads(Slot::Occlusion)) {
-      occlusion = occlusion + T(m_.factors.occlusion_strength) *
-                                  (textures.template Read<kR>(m_.Texture(Slot::Occlusion)).x - T(1.0f));
-    }
-    const Vec3<T> emissive = Emits() ? Emissive(textures) : Vec3<T>{T(0.0f), T(0.0f), T(0.0f)};
-    return {Xyz(base), base.w, metallic, perceptual_roughness, Normal(s, textures), occlusion, emissive, m_.features};
+    return ReadInputs<T>(Source{m_, s, textures}, base, m_.features);
   }
 
  private:
+  // See material/read-inl.h.
+  struct Source {
+    const FrameMaterial& m;
+    const Surface<T>& s;
+    TextureReader<T>& textures;
+
+    HWY_INLINE bool Has(MaterialFeatures feature) const { return m.Has(feature); }
+    HWY_INLINE const MaterialFactors& Factors() const { return m.factors; }
+    template <int kChannels>
+    HWY_INLINE Vec4<T> Read(Slot slot) const {
+      return textures.template Read<kChannels>(m.Texture(slot));
+    }
+    HWY_INLINE const Vec3<T>& Normal() const { return s.normal; }
+    HWY_INLINE const Vec3<T>& InterpolatedNormal() const { return s.interpolated_normal; }
+    HWY_INLINE const Vec4<T>& Tangent() const { return s.tangent; }
+  };
+
   HWY_INLINE TextureReader<T>& ReaderOf(const Surface<T>& s, TextureReader<T>& own) const {
     return ahead_ != nullptr && ahead_->IsOf(s) ? *ahead_ : own;
   }
@@ -184,24 +190,6 @@ class MaterialView {
     Vec4<T> texel = textures.template Read<kRgba>(m_.Texture(Slot::BaseColor));
     if (!ReadsAlpha()) texel.w = T(1.0f);
     return c * texel;
-  }
-
-  HWY_INLINE Vec3<T> Normal(const Surface<T>& s, TextureReader<T>& textures) const {
-    if (!m_.Reads(Slot::Normal)) return s.normal;
-    const Vec4<T> texel = textures.template Read<kRgb>(m_.Texture(Slot::Normal));
-    const T scale(m_.factors.normal_scale);
-    const Vec3<T> n{(texel.x * T(2.0f) - T(1.0f)) * scale, (texel.y * T(2.0f) - T(1.0f)) * scale,
-                    texel.z * T(2.0f) - T(1.0f)};
-    // As MikkTSpace demands, the bitangent is computed per fragment from the interpolated vectors, without normalising
-    // them.
-    const Vec3<T> tangent = Xyz(s.tangent), bitangent = Cross(s.interpolated_normal, tangent) * s.tangent.w;
-    return NormalizeOr(tangent * n.x + bitangent * n.y + s.interpolated_normal * n.z, s.normal);
-  }
-
-  HWY_INLINE Vec3<T> Emissive(TextureReader<T>& textures) const {
-    Vec3<T> e{T(m_.factors.emissive[0]), T(m_.factors.emissive[1]), T(m_.factors.emissive[2])};
-    if (m_.Reads(Slot::Emissive)) e = e * Xyz(textures.template Read<kRgb>(m_.Texture(Slot::Emissive)));
-    return e;
   }
 
   const FrameMaterial& m_;
