@@ -47,7 +47,7 @@ struct Image {
 
 // The header of an encoded image. 0 (or empty) stands for what is not known.
 struct ImageHeader {
-  std::string format;     // "PNG", "JPEG", "WebP", "KTX2" or "Radiance HDR"; empty for an image in memory
+  std::string format;     // its name in words, such as "Radiance HDR"; empty for an image in memory
   int width = 0;          // pixels
   int height = 0;         // pixels
   int channels = 0;       // after decoding: a palette counts as RGB or RGBA, CMYK as RGB

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "facet/error.h"
+#include "image/formats.h"
 
 namespace facet::gltf {
 namespace {
@@ -24,7 +25,7 @@ struct Signature {
   const char* hint;
 };
 
-// The first match counts.
+// The first match counts. (Pictures of known formats: see RecognizeForeign().)
 constexpr Signature kSignatures[] = {
     {0, "version https://git-lfs.github.com/spec/"sv, "a Git LFS pointer in place of the file", "run \"git lfs pull\""},
     {0, "\x1F\x8B"sv, "compressed by gzip", "unpack it first: gunzip"},
@@ -38,30 +39,9 @@ constexpr Signature kSignatures[] = {
     {0, "7z\xBC\xAF\x27\x1C"sv, "a 7z archive", kUnpack},
     {0, "Rar!\x1A\x07"sv, "a RAR archive", kUnpack},
     {257, "ustar"sv, "a tar archive", kUnpack},
-    {0, "\x89PNG\r\n\x1A\n"sv, "a PNG picture", kPicture},
-    {0, "\xFF\xD8\xFF"sv, "a JPEG picture", kPicture},
-    {0, "GIF8"sv, "a GIF picture", kPicture},
-    {8, "WEBP"sv, "a WebP picture", kPicture},
-    {0, "\xABKTX 11\xBB"sv, "a KTX texture", kPicture},
-    {0, "\xABKTX 20\xBB"sv, "a KTX2 texture", kPicture},
-    {0, "DDS "sv, "a DDS texture", kPicture},
     {0, "sB"sv, "a Basis Universal texture", kPicture},
-    {0, "BM"sv, "a BMP picture", kPicture},
-    {0, "II*\0"sv, "a TIFF picture", kPicture},
-    {0, "MM\0*"sv, "a TIFF picture", kPicture},
-    {0, "\x76\x2F\x31\x01"sv, "an OpenEXR picture", kPicture},
-    {0, "#?RADIANCE"sv, "a Radiance HDR picture", kPicture},
-    {0, "#?RGBE"sv, "a Radiance HDR picture", kPicture},
-    {0, "8BPS"sv, "a Photoshop picture", kPicture},
     {0, "\0\0\0\x0CJXL "sv, "a JPEG XL picture", kPicture},
-    {0, "\0\0\0\x0CjP  "sv, "a JPEG 2000 picture", kPicture},
-    {0, "SDPX"sv, "a DPX picture", kPicture},
-    {0, "XPDS"sv, "a DPX picture", kPicture},
-    {4, "ftypavif"sv, "an AVIF picture", kPicture},
-    {4, "ftyphei"sv, "a HEIF picture", kPicture},
-    {4, "ftypmif1"sv, "a HEIF picture", kPicture},
     {4, "ftyp"sv, "a video", nullptr},
-    {0, "\0\0\x01\0"sv, "an icon", kPicture},
     {0, "%PDF-"sv, "a PDF document", nullptr},
     {0, "Kaydara FBX Binary"sv, "an FBX file", kConvert},
     {0, "; FBX"sv, "an FBX file", kConvert},
@@ -177,8 +157,13 @@ bool IsText(std::string_view start) {
 std::optional<ForeignFile> RecognizeForeign(std::string_view file) {
   constexpr std::size_t kStart = 4096;
   const bool is_text = IsText(file.substr(0, kStart));
+  const std::size_t fewest = is_text ? 3 : 1;  // two letters may begin any text
+  if (const ImageFormat* const format = FormatBySignature(file, fewest)) {
+    const bool an = std::string_view("AOSi").find(format->name[0]) != std::string_view::npos;
+    return ForeignFile{(an ? "an " : "a ") + std::string(format->name) + " picture", kPicture, true};
+  }
   for (const Signature& known : kSignatures) {
-    if (is_text && known.bytes.size() <= 2) continue;  // two letters may begin any text
+    if (known.bytes.size() < fewest) continue;
     if (!Holds(file, known.at, known.bytes)) continue;
     return ForeignFile{known.what, known.hint ? known.hint : "", known.hint == kPicture};
   }

@@ -79,7 +79,7 @@ constexpr ImageFormat kFormats[] = {
     {"Photoshop", {".psd"}, {"8BPS"}},
     {"JPEG 2000", {".jp2"}, {"....jP  "}},
     {"JPEG 2000", {".j2c"}, {"\xFF\x4F\xFF\x51"}},
-    {"HEIF", {".heic"}, {"....ftypheic", "....ftypmif1"}},
+    {"HEIF", {".heic"}, {"....ftyphei", "....ftypmif1"}},
     {"AVIF", {".avif"}, {"....ftypavif"}},
     {"DPX", {".dpx"}, {"SDPX", "XPDS"}},
     {"Cineon", {".cin"}, {"\x80\x2A\x5F\xD7"}},
@@ -112,18 +112,34 @@ std::string Lower(std::string text) {
 
 }  // namespace
 
-const ImageFormat* FormatOf(std::span<const std::byte> bytes, std::string_view name) {
-  const std::string_view file(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+const ImageFormat* FormatBySignature(std::string_view file, std::size_t fewest) {
   for (const ImageFormat& format : kFormats) {
     for (const std::string_view signature : format.signatures) {
-      if (Begins(file, signature)) return &format;
+      if (signature.size() >= fewest && Begins(file, signature)) return &format;
     }
   }
+  return nullptr;
+}
+
+const ImageFormat* FormatOf(std::span<const std::byte> bytes, std::string_view name) {
+  const std::string_view file(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  if (const ImageFormat* const format = FormatBySignature(file)) return format;
   const std::string lower = Lower(std::string(name));
   for (const ImageFormat& format : kFormats) {
     if (format.signatures[0].empty() && lower.ends_with(format.extensions[0])) return &format;
   }
   return nullptr;
+}
+
+std::string FormatsOfFacet(bool writing) {
+  std::string list;
+  for (const ImageFormat& format : kFormats) {
+    const bool reads = format.decode != nullptr || format.decode_rows != nullptr;
+    if (writing ? format.encode == nullptr : !reads) continue;
+    list += list.empty() ? "" : ", ";
+    list += format.name;
+  }
+  return list;
 }
 
 std::string ExtensionOf(const std::filesystem::path& path) { return Lower(path.extension().string()); }

@@ -1,6 +1,6 @@
 // The table of image file formats, in formats.cc, which all reading and writing of images goes by. A new codec takes a
-// file with the functions that its row names, the row itself, and an entry in CMakeLists.txt. (Some messages list
-// formats in words: two in oiio_loader.cc those with a codec of facet, one in codec.cc those that store text.)
+// file with the functions that its row names, the row itself, and an entry in CMakeLists.txt. (One message, in codec.cc,
+// lists in words those that store text.)
 #pragma once
 
 #include <cstddef>
@@ -56,6 +56,12 @@ struct ImageFormat {
   // Whether files can store linear light, as floats, only.
   bool IsLinear() const { return Holds(ChannelType::F32) && !Holds(ChannelType::U8); }
 };
+
+// The names of the formats that facet reads (or writes) without OpenImageIO, with commas between them.
+std::string FormatsOfFacet(bool writing);
+
+// Recognises a format by the first bytes alone, at least `fewest` of them. Null: not known.
+const ImageFormat* FormatBySignature(std::string_view file, std::size_t fewest = 1);
 
 // Recognises a format by the first bytes, or by `name`, the file's name. Null: not known.
 const ImageFormat* FormatOf(std::span<const std::byte> bytes, std::string_view name = {});

@@ -10,6 +10,7 @@
 
 #include "facet/error.h"
 #include "image/codec.h"
+#include "image/formats.h"
 #include "image/limits.h"
 #include "image/oiio_abi.h"
 
@@ -78,7 +79,7 @@ Module Get() {
 }
 
 // The same error, with the name of the image that needed the module.
-Module GetFor(const std::string& name, const char* need) {
+Module GetFor(const std::string& name, const std::string& need) {
   try {
     return Get();
   } catch (const Error& error) {
@@ -123,7 +124,7 @@ std::vector<fs::path> OiioModuleCandidates() {
 
 Image DecodeWithOiio(std::span<const std::byte> bytes, std::string_view extension, const std::string& name,
                      bool as_stored) {
-  const Module module = GetFor(name, "not PNG, JPEG, WebP or Radiance, and ");
+  const Module module = GetFor(name, "not one of " + FormatsOfFacet(/*writing=*/false) + "; ");
   FacetOiioPicture picture{};
   char message[kMessageSize] = {};
   // For the module's pixels and their copy.
@@ -146,7 +147,7 @@ Image DecodeWithOiio(std::span<const std::byte> bytes, std::string_view extensio
 
 std::vector<std::byte> EncodeWithOiio(const std::string& extension, const Image& image, bool premultiplied,
                                       const std::vector<std::array<std::string, 2>>& text) {
-  const Module module = GetFor({}, "only PNG, JPEG and WebP are written without OpenImageIO, and ");
+  const Module module = GetFor({}, "written without OpenImageIO are only " + FormatsOfFacet(/*writing=*/true) + "; ");
   FacetOiioPicture picture{};
   picture.width = image.width;
   picture.height = image.height;
