@@ -5,6 +5,7 @@
 
 #include "cli/camera_text.h"
 #include "cli/info_summary.h"
+#include "material/models/models.h"
 
 namespace facet::cli {
 namespace {
@@ -59,6 +60,7 @@ Json ToJson(const MaterialSummary& summary) {
           {"alpha_mode", NameOf(material.alpha_mode)},
           {"alpha_cutoff", material.alpha_cutoff},
           {"double_sided", material.double_sided},
+          {"model", InfoOf(material.model).word},
           {"unlit", material.model == ShadingModel::Unlit},
           {"base_color_factor", Array(material.base_color_factor)},
           {"metallic_factor", material.metallic_factor},

@@ -11,6 +11,7 @@
 #include "cli/camera_text.h"
 #include "cli/info_summary.h"
 #include "material/models/models.h"
+#include "material/parameters.h"
 
 namespace facet::cli {
 namespace {
@@ -99,9 +100,14 @@ std::string Describe(const MaterialSummary& summary) {
     parts.push_back(Format("metallic %g", static_cast<double>(material.metallic_factor)));
     parts.push_back(Format("roughness %g", static_cast<double>(material.roughness_factor)));
   }
-  if (material.emissive_strength != 1.0f) {
-    parts.push_back(Format("emissive strength %g", static_cast<double>(material.emissive_strength)));
-  }
+  ForEachParameter([&]<class Value>(const Parameter<Value>& parameter) {
+    if constexpr (std::is_same_v<Value, float>) {
+      const float value = material.*parameter.member;
+      const bool is_extension = parameter.gltf_group != nullptr && IsExtension(parameter.gltf_group);
+      if (!is_extension || value == Material().*parameter.member) return;
+      parts.push_back(Format("%s %g", parameter.name, static_cast<double>(value)));
+    }
+  });
   std::string text = Join(parts);
   std::vector<std::string> textures;
   for (const TextureUse& use : summary.textures) textures.push_back(Describe(use));

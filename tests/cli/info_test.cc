@@ -45,6 +45,7 @@ TEST(FacetInfo, JsonHoldsWhatTheFileHolds) {
   ASSERT_EQ(info.at("materials").size(), 3u);
   EXPECT_EQ(info.at("materials")[0].at("name"), "Red");
   EXPECT_EQ(info.at("materials")[0].at("unlit"), true);
+  EXPECT_EQ(info.at("materials")[0].at("model"), "unlit");
   EXPECT_EQ(info.at("materials")[1].at("primitives"), 1) << "used by a variant";
   EXPECT_EQ(info.at("materials")[2].at("double_sided"), true);
   EXPECT_EQ(info.at("materials")[2].at("metallic_factor"), 0.0);
