@@ -5,6 +5,7 @@
 #include <cstdarg>
 #include <cstdio>
 #include <numbers>
+#include <type_traits>
 
 #include "base/bytes_text.h"
 #include "base/printable.h"

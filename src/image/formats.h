@@ -1,6 +1,6 @@
 // The table of image file formats, in formats.cc, which all reading and writing of images goes by. A new codec takes a
-// file with the functions that its row names, the row itself, and an entry in CMakeLists.txt. (One message, in codec.cc,
-// lists in words those that store text.)
+// file with the functions that its row names, the row itself, and an entry in CMakeLists.txt. (One message, in
+// codec.cc, lists in words those that store text.)
 #pragma once
 
 #include <cstddef>

@@ -116,8 +116,7 @@ glm::dvec3 ReflectedEnvironment(const lanes::Closure<double>& closure, const Exa
 glm::dvec3 RadianceTowardEye(const ExactMaterial& material, const glm::dvec3& base_color, const SurfacePoint& point,
                              const ExactLight& light, const SampleRun& run) {
   const ExactSource source{material, point};
-  const auto in =
-      lanes::ReadInputs<double>(source, ToLanes(glm::dvec4(base_color, 1.0)), material.Frame().features);
+  const auto in = lanes::ReadInputs<double>(source, ToLanes(glm::dvec4(base_color, 1.0)), material.Frame().features);
   const AlbedoRow row =
       light.albedos.Row(lanes::Clamp(in.perceptual_roughness, double(lanes::kMinPerceptualRoughness), 1.0));
   const ExactLighting lighting(row);

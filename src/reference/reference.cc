@@ -136,8 +136,9 @@ class ReferenceScene {
     if (others) {
       for (const Hit& hit : scratch.hits) {
         const ExactMaterial& material = MaterialAt(hit);
-        if (material.Frame().alpha_mode != AlphaMode::Mask || (nearest != nullptr && hit.depth <= nearest->depth)) continue;
-        if (material.BaseColor(geometry_.SurfaceAt(hit)).w >= double(material.Frame().factors.alpha_cutoff)) consider(hit);
+        const FrameMaterial& frame = material.Frame();
+        if (frame.alpha_mode != AlphaMode::Mask || (nearest != nullptr && hit.depth <= nearest->depth)) continue;
+        if (material.BaseColor(geometry_.SurfaceAt(hit)).w >= double(frame.factors.alpha_cutoff)) consider(hit);
       }
       for (const Hit& hit : scratch.hits) {
         const bool seen = nearest == nullptr || hit.depth >= nearest->depth;
