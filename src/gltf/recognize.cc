@@ -193,7 +193,9 @@ void RefuseForeignJson(std::string_view file, const std::string& name) {
   const std::size_t first = file.find_first_not_of(" \t\r\n");
   if (first != std::string_view::npos && (file[first] == '{' || file[first] == '[')) return;
   const auto foreign = RecognizeForeign(file);
-  if (foreign) throw Error(ErrorCode::InvalidInput, "not JSON, but " + foreign->what, name, foreign->is_picture ? "" : foreign->hint);
+  if (!foreign) return;
+  const std::string hint = foreign->is_picture ? "" : foreign->hint;
+  throw Error(ErrorCode::InvalidInput, "not JSON, but " + foreign->what, name, hint);
 }
 
 }  // namespace facet::gltf

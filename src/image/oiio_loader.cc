@@ -147,7 +147,7 @@ Image DecodeWithOiio(std::span<const std::byte> bytes, std::string_view extensio
 
 std::vector<std::byte> EncodeWithOiio(const std::string& extension, const Image& image, bool premultiplied,
                                       const std::vector<std::array<std::string, 2>>& text) {
-  const Module module = GetFor({}, "written without OpenImageIO are only " + FormatsOfFacet(/*writing=*/true) + "; ");
+  const Module module = GetFor({}, "only " + FormatsOfFacet(/*writing=*/true) + " are written without OpenImageIO, and ");
   FacetOiioPicture picture{};
   picture.width = image.width;
   picture.height = image.height;

@@ -17,7 +17,7 @@ struct PoseSettings {
   int variant = -1;    // -1: none
   bool generate_tangents = false;  // true: generate tangents even if the geometry has some
   MaterialFeatures tangent_space_textures = kTangentSpaceBits;  // the others are treated as absent
-  bool skins = true, morph_targets = true;  // false: treat the scene as if it had none of these
+  bool skins = true, morph_targets = true;                      // false: treat the scene as if it had none of these
 
   bool operator==(const PoseSettings&) const = default;
 };
