@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <glm/glm.hpp>
@@ -121,14 +120,11 @@ inline constexpr auto kFeatureWords = std::to_array<FeatureWord>({
     {Feature::MorphTargets, "morph-targets"},
 });
 inline constexpr int kFeatureCount = kFeatureWords.size();
-static_assert(
-    [] {
-      for (std::size_t i = 0; i < kFeatureWords.size(); ++i) {
-        if (static_cast<std::uint32_t>(kFeatureWords[i].feature) != 1u << i) return false;
-      }
-      return true;
-    }(),
-    "each feature has a word, in the order of the bits");
+static_assert(std::ranges::all_of(kFeatureWords,
+                                  [](const FeatureWord& known) {
+                                    return known.feature == Feature{1u << (&known - kFeatureWords.data())};
+                                  }),
+              "a row for each bit, in their order");
 
 class FeatureSet {
  public:

@@ -30,9 +30,9 @@ HWY_INLINE Vec3<T> MappedNormal(const Source& from, Slot slot, float normal_scal
   const T scale(normal_scale);
   const Vec3<T> n{(texel.x * T(2.0f) - T(1.0f)) * scale, (texel.y * T(2.0f) - T(1.0f)) * scale,
                   texel.z * T(2.0f) - T(1.0f)};
-  const Vec3<T> normal = from.InterpolatedNormal(), tangent = Xyz(from.Tangent());
-  const Vec3<T> bitangent = Cross(normal, tangent) * from.Tangent().w;
-  return NormalizeOr(tangent * n.x + bitangent * n.y + normal * n.z, from.Normal());
+  const Vec3<T> tangent = Xyz(from.Tangent());
+  const Vec3<T> bitangent = Cross(from.InterpolatedNormal(), tangent) * from.Tangent().w;
+  return NormalizeOr(tangent * n.x + bitangent * n.y + from.InterpolatedNormal() * n.z, from.Normal());
 }
 
 // For materials that emit.
@@ -58,8 +58,8 @@ HWY_INLINE MaterialInputs<T> ReadInputs(const Source& from, const Vec4<T>& base,
     occlusion = occlusion + T(f.occlusion_strength) * (from.template Read<kR>(Slot::Occlusion).x - T(1.0f));
   }
   const Vec3<T> emissive = from.Has(kEmission) ? ReadEmission<T>(from) : Vec3<T>{T(0.0f), T(0.0f), T(0.0f)};
-  const Vec3<T> normal = MappedNormal<T>(from, Slot::Normal, f.normal_scale);
-  return {Xyz(base), base.w, metallic, perceptual_roughness, normal, occlusion, emissive, features};
+  return {Xyz(base), base.w, metallic, perceptual_roughness, MappedNormal<T>(from, Slot::Normal, f.normal_scale),
+          occlusion, emissive, features};
 }
 
 }  // namespace HWY_NAMESPACE
