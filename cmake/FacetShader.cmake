@@ -22,10 +22,17 @@ function(facet_add_shader target name file)
     set(pointer "nullptr")
   endif()
   get_filename_component(path ${file} ABSOLUTE)
+  if(NOT EXISTS ${path})
+    message(FATAL_ERROR "facet_add_shader: there is no file ${path}")
+  endif()
   get_filename_component(stem ${file} NAME_WE)
   set(folder ${CMAKE_CURRENT_BINARY_DIR}/facet_shaders/${target})
   set(header ${folder}/${stem}.shader.h)
   set(source ${folder}/${stem}.shader.cc)
+  get_target_property(sources ${target} SOURCES)
+  if(source IN_LIST sources)
+    message(FATAL_ERROR "facet_add_shader: ${target} has a shader in a file called ${stem} already; rename one of them")
+  endif()
   file(CONFIGURE OUTPUT ${header} @ONLY CONTENT [[// Written by facet_add_shader().
 #pragma once
 #include <memory>

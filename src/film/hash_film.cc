@@ -41,7 +41,7 @@ Digest HashPlane(const Film& film, std::size_t plane) {
   CheckFilm(film);
   if (plane >= film.planes.size()) {
     throw Error(ErrorCode::InvalidUsage,
-                "there is no plane " + std::to_string(plane) + ", but " + std::to_string(film.planes.size()), "film",
+                "plane " + std::to_string(plane) + " of a film that has " + std::to_string(film.planes.size()), "film",
                 "ask for planes with RenderSettings::planes");
   }
   const auto& [kind, bytes] = film.planes[plane];

@@ -195,8 +195,8 @@ void Renderer::RenderBands(const RenderSettings& settings, int max_rows, const B
 void Renderer::RenderImage(const RenderSettings& settings, const DisplaySettings& display, Image& image,
                            RenderStats* stats, ChannelType type) {
   if (!settings.planes.empty()) {
-    throw Error(ErrorCode::InvalidUsage, "planes besides colour of a picture", "render settings",
-                "Render() gives a film, which has them");
+    throw Error(ErrorCode::InvalidUsage, "RenderImage() gives no planes besides colour", "render settings",
+                "leave 'planes' empty, or call Render()");
   }
   FrameOutput output;
   output.image = &image;

@@ -271,7 +271,7 @@ TEST(Planes, AreRefusedTwiceUnknownOrOfAnImage) {
   settings.planes = {PlaneKind::Depth};
   Image image;
   const auto render_image = [&] { Renderer(scene).RenderImage(settings, {}, image); };
-  EXPECT_NE(Refusal(render_image).find("planes besides colour of a picture"), std::string::npos);
+  EXPECT_NE(Refusal(render_image).find("RenderImage() gives no planes besides colour"), std::string::npos);
   settings.planes.clear();
   render_image();
 }
