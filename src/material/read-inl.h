@@ -58,7 +58,7 @@ HWY_INLINE MaterialInputs<T> ReadInputs(const Source& from, const Vec4<T>& base,
     occlusion = occlusion + T(f.occlusion_strength) * (from.template Read<kR>(Slot::Occlusion).x - T(1.0f));
   }
   const Vec3<T> emissive = from.Has(kEmission) ? ReadEmission<T>(from) : Vec3<T>{T(0.0f), T(0.0f), T(0.0f)};
-  return {Xyz(base), base.w, metallic, perceptual_roughness, MappedNormal<T>(from, Slot::Normal, f.normal_scale),
+  return {Xyz(base), base.w,   metallic, perceptual_roughness, MappedNormal<T>(from, Slot::Normal, f.normal_scale),
           occlusion, emissive, features};
 }
 
