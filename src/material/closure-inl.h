@@ -35,7 +35,7 @@ struct MaterialInputs {
   Vec3<T> normal;          // unit, shading, on the viewer's side
   T occlusion{};           // 1 + strength * (texel - 1); 1 where there is none
   Vec3<T> emissive;        // radiance
-  MaterialFeatures lobes = kLobes;  // those that the material has besides the specular lobe
+  MaterialFeatures lobes = kDiffuseLobe;  // those that the material has besides the specular lobe
 };
 
 // The material seen from one direction. A Lighting provides, to this and to the functions below:

@@ -17,7 +17,6 @@ enum MaterialFeature : std::uint64_t {
   kAlphaBlend = kFirstFeature << 3,  // BLEND
   kDoubleSided = kFirstFeature << 4,
   kDiffuseLobe = kFirstFeature << 5,  // it is not purely metallic
-  kLobes = kDiffuseLobe,              // all optional lobes of the closure
 };
 using MaterialFeatures = std::uint64_t;
 
