@@ -12,7 +12,7 @@ constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 std::string Text(double value) {
   char text[32];
-  std::snprintf(text, sizeof text, "%.7g", value + 0.0);  // no negative zero
+  std::snprintf(text, sizeof text, "%.7g", value + 0.0);  // turns -0 into 0
   return text;
 }
 
@@ -27,14 +27,14 @@ View ViewOf(const FreeCamera& camera, double target_distance) {
   return {eye, eye - target_distance * back, glm::dvec3(camera.world_from_camera[1])};
 }
 
-// Empty where no orbit gives this view.
+// The options for this view, or an empty string if no orbit gives it.
 std::string Options(const FreeCamera& camera, double target_distance) {
   const glm::dvec3 back(camera.world_from_camera[2]), right(camera.world_from_camera[0]);
   constexpr double kLevel = 1e-6;
   const bool upright = std::fabs(right.y) < kLevel && camera.world_from_camera[1][1] > -kLevel;
   const double degrees = camera.lens.yfov * kDegrees;
   if (camera.lens.orthographic || !upright || degrees < 1.0 || degrees > 179.0) return {};
-  // Looking straight down or up, the sides say where theta points.
+  // Theta follows from the right axis, which is defined even if the camera looks straight down or up.
   const double theta = std::atan2(-right.z, right.x), phi = std::acos(std::fmin(std::fmax(back.y, -1.0), 1.0));
   return "--orbit " + Text(theta * kDegrees) + "," + Text(phi * kDegrees) + "," + Text(target_distance) + " --target " +
          Text(ViewOf(camera, target_distance).target) + " --fov " + Text(degrees);

@@ -23,7 +23,7 @@ constexpr int kPassed = 0, kDiffers = 1, kFailed = 2;
 
 constexpr Verdict kVerdicts[] = {Verdict::Passed, Verdict::Within, Verdict::Updated, Verdict::Failed, Verdict::Error};
 
-// Characters of UTF-8.
+// The number of characters in UTF-8 text.
 std::size_t Length(const std::string& text) {
   return static_cast<std::size_t>(
       std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
@@ -81,7 +81,7 @@ std::string Json(const CheckReport& report) {
   return json.dump(2, ' ', false, Ordered::error_handler_t::replace) + "\n";
 }
 
-// By the files that they are to be in.
+// Maps the path of each picture file to write to its PNG bytes.
 std::map<std::filesystem::path, const std::vector<std::byte>*> PicturesOf(const CheckReport& report,
                                                                           const std::filesystem::path& folder) {
   std::map<std::filesystem::path, const std::vector<std::byte>*> pictures;
@@ -122,7 +122,7 @@ int RunCheck(const CheckCommandOptions& options) {
   std::vector<std::filesystem::path> inputs = {options.manifest};
   for (const CheckedEntry& entry : report.entries) inputs.insert(inputs.end(), entry.files.begin(), entry.files.end());
   RefuseOverwriting(outputs, inputs);
-  // One that cannot be written keeps none of the others from those who wait for them.
+  // If one output cannot be written, the others are still written, and the first error is thrown at the end.
   std::optional<Error> failure;
   const auto try_to = [&](const auto& write) {
     try {

@@ -14,7 +14,7 @@ void PrintLine(std::string_view prefix, std::string_view text) {
   std::string line(prefix);
   line += Printable(text);
   line += '\n';
-  std::fwrite(line.data(), 1, line.size(), stderr);  // one call: lines of several processes do not mix
+  std::fwrite(line.data(), 1, line.size(), stderr);  // one call, so that lines of several processes do not mix
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What the program says, one line at a time, without control characters.
+// Messages and output of the program. Each message is one line without control characters.
 #pragma once
 
 #include <string>
@@ -12,11 +12,11 @@ void PrintError(std::string_view text);
 void PrintNote(std::string_view text);
 void PrintWarning(std::string_view text);
 
-// Prints warnings, one line each. `strict`: throws Error(InvalidInput) then where there were some; `where`: what they
-// are about.
+// Prints warnings, one line each. If `strict` is set and there are any, throws Error(InvalidInput) afterwards. `where`:
+// the file that they concern.
 void PrintWarnings(const std::vector<std::string>& warnings, bool strict, const std::string& where);
 
-// Writes to standard output and flushes. Throws Error(OutputFailed) when that is closed or full.
+// Writes to standard output and flushes it. Throws Error(OutputFailed) if it is closed or full.
 void PrintOutput(std::string_view text);
 
 }  // namespace facet::cli

@@ -29,7 +29,7 @@ ImageDifference Compare(const DiffOptions& options) {
   }
   try {
     return CompareImages(a, b, options.compare);
-  } catch (const Error& error) {  // which does not know the files
+  } catch (const Error& error) {  // it does not name the file yet
     throw Error(error.code(), error.message(), options.b.string(), error.hint());
   }
 }

@@ -1,4 +1,4 @@
-// facet diff: how far two pictures are apart.
+// `facet diff`: measures the difference between two images.
 #pragma once
 
 #include <filesystem>
@@ -9,15 +9,15 @@
 namespace facet::cli {
 
 struct DiffOptions {
-  std::filesystem::path a, b;                   // pictures: the reference and the test
+  std::filesystem::path a, b;                   // the reference and the test image
   std::optional<std::filesystem::path> output;  // the heat map
   bool json = false;
   CompareOptions compare;
   CompareThresholds thresholds;
 };
 
-// Prints the measures to standard output. Returns the exit code: 0 when the pictures are equal, or within all
-// thresholds where there are some; 1 when they are not. Throws Error.
+// Prints the measures to standard output. Returns the exit code: 0 if the images are equal or, if thresholds are given,
+// within all of them; otherwise 1. Throws Error.
 int RunDiff(const DiffOptions& options);
 
 }  // namespace facet::cli

@@ -11,7 +11,7 @@
 namespace facet::cli {
 
 void RunExplain(const ExplainOptions& options) {
-  MemoryBudget budget(options.load.memory_limit);  // of what is neither loading nor rendering
+  MemoryBudget budget(options.load.memory_limit);  // for work other than loading and rendering
   const MemoryBudget::Scope scope(budget);
   Explanation explanation;
   std::vector<std::string> warnings;

@@ -1,4 +1,4 @@
-// `facet explain`: what a frame uses, leaves out and spends.
+// `facet explain`: which features a frame uses, which are disabled, and what they cost.
 #pragma once
 
 #include "cli/options.h"

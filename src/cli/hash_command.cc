@@ -19,8 +19,8 @@ namespace {
 using Line = std::pair<std::string, std::optional<Digest>>;
 
 struct Lines {
-  std::vector<Line> planes;  // of the film, besides colour
-  std::vector<Line> others;  // the first is the film's
+  std::vector<Line> planes;  // of the film, except colour
+  std::vector<Line> others;  // the film's is the first
 };
 
 Lines Digests(const HashOptions& options) {
@@ -44,7 +44,7 @@ Lines Digests(const HashOptions& options) {
   return lines;
 }
 
-// The film's planes follow its colour.
+// Lists the planes directly after the film.
 std::string Text(Lines lines) {
   lines.others.insert(lines.others.begin() + 1, lines.planes.begin(), lines.planes.end());
   std::string text;
@@ -56,7 +56,7 @@ std::string Text(Lines lines) {
   return text;
 }
 
-// Planes are an object of their own, so that their names cannot clash with other keys.
+// Planes are in an object of their own, so that their names cannot clash with other keys.
 std::string Json(const Lines& lines) {
   nlohmann::ordered_json json;
   json["facet"] = Version();
@@ -70,7 +70,7 @@ std::string Json(const Lines& lines) {
 }  // namespace
 
 void RunHash(const HashOptions& options) {
-  MemoryBudget budget(options.load.memory_limit);  // of what is neither loading nor rendering
+  MemoryBudget budget(options.load.memory_limit);  // for work other than loading and rendering
   const MemoryBudget::Scope scope(budget);
   Lines lines;
   RunWithThreads(options.request.settings.threads, [&] { lines = Digests(options); });

@@ -1,11 +1,11 @@
-// `facet info`.
+// `facet info`: describes the content of a scene file.
 #pragma once
 
 #include "cli/options.h"
 
 namespace facet::cli {
 
-// Loads and describes on standard output. A file that requires what facet does not have is described all the same.
+// Loads the file and prints its description. A file that requires extensions unknown to facet is described too.
 // Throws Error.
 void RunInfo(const InfoOptions& options);
 

@@ -12,7 +12,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// A number that may be infinite, which JSON has no word for: null.
+// JSON cannot represent infinite numbers; they become null.
 Json Finite(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 template <class Vector>

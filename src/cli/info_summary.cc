@@ -77,7 +77,7 @@ SceneSummary SummarizeScene(const Scene& scene, int index, const std::vector<Mes
   SceneSummary summary;
   const SceneRoots& roots = scene.scenes[static_cast<std::size_t>(index)];
   summary.name = roots.name;
-  std::vector<int> pending = roots.nodes;  // the hierarchy is a forest, however deep
+  std::vector<int> pending = roots.nodes;  // no recursion, as the hierarchy may be very deep; it is a forest
   while (!pending.empty()) {
     const Node& node = scene.nodes[static_cast<std::size_t>(pending.back())];
     pending.pop_back();

@@ -1,4 +1,4 @@
-// What is in a file, counted and named: the values behind both forms of `facet info`.
+// A summary of the content of a scene file, from which `facet info` writes text and JSON.
 #pragma once
 
 #include <cstddef>
@@ -13,11 +13,11 @@
 
 namespace facet::cli {
 
-// What a number of primitives draw.
+// The geometry of one or more primitives.
 struct Geometry {
   std::uint64_t primitives = 0;
   std::uint64_t vertices = 0;
-  std::uint64_t triangles = 0;  // strips and fans counted by what they draw
+  std::uint64_t triangles = 0;  // including those of strips and fans
   std::uint64_t lines = 0;
   std::uint64_t points = 0;
 
@@ -28,9 +28,9 @@ struct MeshSummary {
   std::string name;
   Geometry geometry;
   std::size_t morph_targets = 0;
-  bool normals = false, tangents = false, colors = false;  // any primitive has them
-  std::size_t tex_coord_sets = 0;                          // the most of any primitive
-  std::size_t influences = 0;                              // joints a vertex, the most of any primitive
+  bool normals = false, tangents = false, colors = false;  // whether any primitive has them
+  std::size_t tex_coord_sets = 0;                          // the maximum over the primitives
+  std::size_t influences = 0;                              // joints per vertex, the maximum over the primitives
 };
 
 // One use of a texture by a material.
@@ -43,13 +43,13 @@ struct TextureUse {
 struct MaterialSummary {
   const Material* material = nullptr;
   std::vector<TextureUse> textures;
-  std::uint64_t primitives = 0;  // that use it, by default or in a variant
+  std::uint64_t primitives = 0;  // primitives that use it, by default or in a variant
 };
 
 struct ImageSummary {
-  std::string name;          // the file's name for it, may be empty
-  std::string source;        // where its bytes are
-  std::size_t textures = 0;  // that use it
+  std::string name;          // its name in the glTF file; may be empty
+  std::string source;        // a URI or a description of where the bytes are
+  std::size_t textures = 0;  // textures that use it
   std::optional<ImageHeader> header;
 };
 
@@ -57,27 +57,27 @@ struct AnimationSummary {
   std::string name;
   double duration_seconds = 0;
   std::size_t channels = 0;
-  std::size_t translations = 0, rotations = 0, scales = 0, weights = 0;  // channels by path
+  std::size_t translations = 0, rotations = 0, scales = 0, weights = 0;  // number of channels by path
 };
 
 struct SceneSummary {
   std::string name;
-  std::size_t nodes = 0;  // visible ones reached from its roots
-  Geometry drawn;         // every mesh as often as a visible node or an instance of one draws it
-  bool empty = true;      // no bounds
+  std::size_t nodes = 0;  // visible nodes that are reachable from its roots
+  Geometry drawn;         // each mesh once for every visible node or instance that draws it
+  bool empty = true;      // the scene has no bounds
   glm::dvec3 low{0.0}, high{0.0};
 };
 
 struct FileSummary {
   const LoadedScene* file = nullptr;
   std::string input;
-  Geometry geometry;  // each mesh once
+  Geometry geometry;  // of all meshes, each counted once
   std::vector<MeshSummary> meshes;
   std::vector<MaterialSummary> materials;
   std::vector<ImageSummary> images;
   std::vector<AnimationSummary> animations;
   std::vector<SceneSummary> scenes;
-  // That frames the default scene in a square picture, with the distance of what it looks at.
+  // The camera that frames the default scene in a square image, and the distance from its eye to its target.
   FreeCamera camera;
   double camera_target_distance = 1.0;
 };
@@ -85,7 +85,7 @@ struct FileSummary {
 // `file` must outlive the summary.
 FileSummary Summarize(const LoadedScene& file, std::string input);
 
-// For people, and as one JSON object with stable keys; both end in a line end.
+// The summary as readable text, and as one JSON object with stable keys. Both end in a newline.
 std::string InfoText(const FileSummary& summary);
 std::string InfoJson(const FileSummary& summary);
 

@@ -1,4 +1,4 @@
-// `facet info` for people.
+// The text of `facet info`.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -186,7 +186,7 @@ std::string Describe(const Skin& skin) { return Plural(skin.joints.size(), "join
 
 std::string Describe(const std::string&) { return {}; }
 
-// A heading with its count, then a line for each thing: index, name, description.
+// A heading with the number of items, then one line for each item: index, name, description.
 class Listing {
  public:
   explicit Listing(std::string& text) : text_(text) {}
@@ -214,7 +214,7 @@ class Listing {
   }
 
  private:
-  static constexpr std::size_t kWidest = 32;  // a longer name does not move the column of all others
+  static constexpr std::size_t kWidest = 32;  // longer names do not widen the column
   std::string& text_;
 };
 

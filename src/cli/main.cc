@@ -1,4 +1,4 @@
-// The facet program: parse, options, call.
+// The facet program: parses the command line and runs the command.
 #include <exception>
 #include <functional>
 #include <new>
@@ -23,7 +23,7 @@ namespace {
 using namespace facet;
 using namespace facet::cli;
 
-// `command`'s exit code, or that of the error that ended it, after one line that says what was wrong.
+// Returns the exit code of `command`. If it throws, prints one line about the error and returns the error's exit code.
 int Guarded(const std::function<int()>& command) {
   try {
     return command();
@@ -39,7 +39,7 @@ int Guarded(const std::function<int()>& command) {
   }
 }
 
-// Commands that compare say equal or not by 0 and 1: every error is 2.
+// For commands that compare: exit codes 0 and 1 mean equal and different, so every error becomes 2.
 int Compared(const std::function<int()>& command) {
   bool finished = false;
   const int code = Guarded([&] {

@@ -40,7 +40,7 @@ constexpr const char* kRenderExamples =
 
 using std::filesystem::path;
 
-// An option that takes one text and hands it to `use`.
+// Adds an option with one value, whose text is passed to `use`.
 template <class Use>
 CLI::Option* Add(CLI::App& app, std::string_view group, const std::string& name, std::string_view value,
                  std::string_view description, Use use) {
@@ -69,7 +69,7 @@ void AddThreads(CLI::App& app, const std::string& group, int& threads) {
       [&](const std::string& text) { threads = ParseInteger("--threads", text, 0, 1024); });
 }
 
-// How a scene's file, or what names one, is loaded.
+// Options for loading the scene file.
 void AddLoading(CLI::App& app, const std::string& group, LoadOptions& load, bool& strict) {
   AddFlag(app, group, "--strict", "Warnings are failures", strict);
   AddFlag(app, group, "--ignore-required-extensions",
@@ -97,7 +97,7 @@ void AddMemoryLimit(CLI::App& app, const std::string& group, std::uint64_t& limi
       [&](const std::string& text) { limit = ParseBytes("--memory-limit", text); });
 }
 
-// The options that decide over the picture, and those that decide only how it is made.
+// The options that determine the image, and those that only affect how it is rendered, such as threads and memory.
 void AddRequest(CLI::App& app, RenderRequest& request, LoadOptions& load, bool& strict) {
   for (const RequestOption& option : RequestOptions()) {
     Add(app, option.group, "--" + std::string(option.name), option.value, option.description,
@@ -115,7 +115,7 @@ void AddRequest(CLI::App& app, RenderRequest& request, LoadOptions& load, bool& 
   AddMemoryLimit(app, "Quality and speed", load.memory_limit);
 }
 
-// Planes of the film besides colour, for commands that print something about the film.
+// --planes, for commands that print information about the planes of the film.
 void AddPlanes(CLI::App& app, RenderRequest& request) {
   std::string names;
   for (const PlaneInfo& info : kPlanes) names += (names.empty() ? "" : ", ") + std::string(info.name);
@@ -166,7 +166,7 @@ void AddMessages(CLI::App& app, RenderOptions& options) {
   AddFlag(app, group, "-q,--quiet", "No warnings and no progress; errors only", options.quiet);
 }
 
-// One command of the program. Its help option comes last on its page.
+// A command of the program. Its --help option is listed last on its help page.
 class CommandPage {
  public:
   CommandPage(CLI::App& program, const std::string& name, const std::string& description, const std::string& usage,
@@ -206,7 +206,7 @@ CLI::App& AddRender(CLI::App& program, RenderOptions& options) {
 CLI::App& AddInfo(CLI::App& program, InfoOptions& options) {
   CommandPage page(program, "info", "Say what is in a file and what facet makes of it", "IN [OPTIONS]", kExitCodes);
   AddScene(page.app(), options.input);
-  options.load.ignore_required_extensions = true;  // whoever asks what is in a file wants to be told just that
+  options.load.ignore_required_extensions = true;  // such files can still be described
   AddLoading(page.app(), "Options", options.load, options.strict);
   AddMemoryLimit(page.app(), "Options", options.load.memory_limit);
   AddFlag(page.app(), "Options", "--json", "As JSON with stable keys", options.json);
@@ -255,7 +255,7 @@ CLI::App& AddVerify(CLI::App& program, VerifyOptions& options) {
   return app;
 }
 
-// A threshold: `use` gets a number in `range`.
+// Adds an option for a threshold; `use` is called with a number in `range`.
 template <class Use>
 void AddThreshold(CLI::App& app, const std::string& name, const std::string& value, const std::string& description,
                   Range range, Use use) {
@@ -373,7 +373,7 @@ std::uint64_t MemoryLimitOf(const Command& command) { return std::visit(Limit(),
 int ThreadsOf(const Command& command) { return std::visit(Threads(), command); }
 
 Command ParseCommandLine(int argc, const char* const* argv) {
-  // "facet help" and "facet help render", as people try first.
+  // Accepts "facet help" and "facet help render" as well.
   std::vector<const char*> arguments(argv, argv + argc);
   if (argc > 1 && std::string_view(argv[1]) == "help") {
     arguments.erase(arguments.begin() + 1);

@@ -1,4 +1,4 @@
-// The command line as values.
+// Parses the command line into the options of each command.
 #pragma once
 
 #include <cstdint>
@@ -21,14 +21,14 @@ struct RenderOptions {
   std::filesystem::path input, output;
   RenderRequest request;
   LoadOptions load;
-  std::filesystem::path cache;  // of prepared environments; empty: none
+  std::filesystem::path cache;  // folder of prepared environments; empty: none
   bool quiet = false;
-  std::optional<bool> progress;  // none: when standard error is a terminal
-  bool strict = false;           // warnings are failures
-  // With either bound the approximations are chosen from a report: a stored one, or one that is made first.
+  std::optional<bool> progress;  // none: only if standard error is a terminal
+  bool strict = false;           // warnings are errors
+  // If a bound is given, the approximations are chosen from a report: the stored one, or one that is made first.
   Bound bound;
   std::optional<std::filesystem::path> report;
-  std::optional<double> budget_seconds;  // for making it; 30 if none
+  std::optional<double> budget_seconds;  // for making the report; none: 30
   bool stats_table = false;
   std::optional<std::string> stats_json;  // a path, or "-" for standard output
 };
@@ -62,7 +62,7 @@ struct HashOptions {
 // `facet verify`.
 struct VerifyOptions {
   std::filesystem::path picture, input;
-  std::optional<std::filesystem::path> environment;  // instead of the file beside the scene
+  std::optional<std::filesystem::path> environment;  // replaces the file next to the scene
   LoadOptions load;
   bool strict = false;
   int threads = 0;
@@ -80,7 +80,7 @@ struct ReportOptions {
   bool quiet = false;
 };
 
-// --help and --version: a text for standard output.
+// --help and --version: a text to print to standard output.
 struct TextRequest {
   std::string text;
 };
@@ -88,9 +88,9 @@ struct TextRequest {
 using Command = std::variant<TextRequest, RenderOptions, InfoOptions, ExplainOptions, HashOptions, VerifyOptions,
                              DiffOptions, CheckCommandOptions, ReportOptions>;
 
-// --memory-limit, in bytes; 0: none was given.
+// --memory-limit in bytes, or 0 if it is not given.
 std::uint64_t MemoryLimitOf(const Command& command);
-// --threads; 0: one per core.
+// --threads, where 0 means one per core.
 int ThreadsOf(const Command& command);
 
 // Throws Error(InvalidUsage).

@@ -16,14 +16,14 @@
 namespace facet::cli {
 namespace {
 
-// The signal's own end follows, so that whoever started the program sees it.
+// Raises the signal again with its default action, so that the parent process sees why the program ended.
 void OnEnd(int signal) {
   RemoveUnfinishedFiles();
   std::signal(signal, SIG_DFL);
   std::raise(signal);
 }
 
-// A page of a mapped file that is no longer there. Several threads may meet one: the first speaks.
+// Handles access to a page of a truncated mapped file. If several threads access one, only the first prints the error.
 void OnBusError(int) {
   static std::atomic_flag met = ATOMIC_FLAG_INIT;
   while (met.test_and_set()) ::pause();
@@ -36,7 +36,7 @@ void OnBusError(int) {
 
 void Handle(int signal, void (*handler)(int), int flags) {
   struct sigaction before {};
-  // What the caller has switched off, as nohup does, stays so.
+  // Signals that the caller ignores, as nohup does, stay ignored.
   if (::sigaction(signal, nullptr, &before) != 0 || before.sa_handler == SIG_IGN) return;
   struct sigaction action {};
   action.sa_handler = handler;
@@ -59,7 +59,7 @@ void LimitMemory(std::uint64_t limit, int threads) {
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && !defined(FACET_SANITIZED)
   constexpr std::uint64_t kProgram = std::uint64_t{96} << 20, kStack = std::uint64_t{9} << 20;
   if (limit == 0) limit = DefaultMemoryLimit();
-  // The libraries' own, a stack for each thread, and what the heap holds that is free but in pieces.
+  // On top of the limit: the program and its libraries, a stack for each thread, and a quarter for heap fragmentation.
   const std::uint64_t stacks = std::max<std::uint64_t>(std::thread::hardware_concurrency(), std::uint64_t(threads));
   const std::uint64_t all = limit + limit / 4 + kProgram + stacks * kStack;
   rlimit data{};
@@ -67,7 +67,7 @@ void LimitMemory(std::uint64_t limit, int threads) {
   data.rlim_cur = all;
   ::setrlimit(RLIMIT_DATA, &data);
 #else
-  static_cast<void>(limit), static_cast<void>(threads);  // a sanitizer's own memory is beyond any limit
+  static_cast<void>(limit), static_cast<void>(threads);  // sanitizers reserve more memory than any limit
 #endif
 }
 

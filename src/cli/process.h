@@ -1,17 +1,17 @@
-// What the program asks of the system before it begins.
+// Signal handlers and a memory limit of the process, which the program sets up first.
 #pragma once
 
 #include <cstdint>
 
 namespace facet::cli {
 
-// Ctrl-C and other ways of being ended leave no unfinished file behind. Writing beyond a limit on the size of files is
-// an error as any other, and a mapped input file that another program cuts short ends this one with one line.
+// Ctrl-C and other terminating signals remove unfinished files. Exceeding the limit on file sizes becomes an ordinary
+// write error. If another program truncates a mapped input file, the process prints one line and exits.
 void HandleSignals();
 
-// A second line behind the library's own accounts: what libraries allocate that it does not know of fails too, with
-// std::bad_alloc, when it goes far beyond `limit` bytes (0: DefaultMemoryLimit()). The stacks of `threads` (0: one per
-// core) are not counted: a thread that cannot be made ends the process.
+// A backstop behind the library's memory budget: allocations that the budget does not count, such as those of other
+// libraries, fail with std::bad_alloc far beyond `limit` bytes (0: DefaultMemoryLimit()). The stacks of `threads` (0:
+// one per core) are allowed on top, because failing to create a thread would end the process.
 void LimitMemory(std::uint64_t limit, int threads);
 
 }  // namespace facet::cli

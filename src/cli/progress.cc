@@ -40,7 +40,7 @@ Progress::Style Progress::StyleFor(bool quiet, const bool* wanted) {
 void Progress::Update(double share) {
   if (style_ == Style::None) return;
   const std::unique_lock lock(mutex_, std::try_to_lock);
-  if (!lock.owns_lock()) return;  // another thread is reporting: never wait for a terminal
+  if (!lock.owns_lock()) return;  // another thread is reporting; do not wait for the terminal
   share = std::clamp(share, 0.0, 1.0);
   if (style_ == Style::Lines) {
     const int tenths = static_cast<int>(share * 10.0);

@@ -1,4 +1,4 @@
-// A bar for the patient.
+// The progress of a rendering on standard error.
 #pragma once
 
 #include <chrono>
@@ -6,8 +6,8 @@
 
 namespace facet::cli {
 
-// Reports the share of the work that is done on standard error: on a terminal a bar that appears after half a second
-// and is erased at the end; elsewhere, when asked for, a line every tenth.
+// Reports the finished share of the work on standard error. On a terminal, a bar appears after half a second and is
+// erased at the end. Otherwise, a line is printed for every tenth, if progress was requested.
 class Progress {
  public:
   enum class Style { None, Bar, Lines };
@@ -17,10 +17,10 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  // `share` in [0, 1]. May be called from any thread; calls that come too often cost a clock reading.
+  // `share` in [0, 1]. May be called from any thread. Calls in quick succession only read the clock.
   void Update(double share);
 
-  // What suits standard error. `wanted` overrides what would be chosen; see RenderOptions::progress.
+  // The style for standard error. `wanted` is RenderOptions::progress, or null if that is not set.
   static Style StyleFor(bool quiet, const bool* wanted);
 
  private:

@@ -40,12 +40,12 @@ class Stopwatch {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-// With --strict they are failures, also where they are not to be printed.
+// With --strict, warnings are errors and are printed even with --quiet.
 void PrintWarnings(const std::vector<std::string>& warnings, const RenderOptions& options) {
   if (!options.quiet || options.strict) cli::PrintWarnings(warnings, options.strict, options.input.string());
 }
 
-// Settings that contradict the output's format; everything that needs no file.
+// Resolves or refuses settings that do not fit the output's format. Does not read any file.
 void Reconcile(RenderOptions& options) {
   RefuseContradictions(options.request);
   const ImageFormat& format = FormatToWrite(options.output);
@@ -72,7 +72,7 @@ void Reconcile(RenderOptions& options) {
       throw Error(ErrorCode::InvalidUsage, kind + " files have no transparency", "--background transparent",
                   "choose a colour, or write .png");
     }
-    // Light adds to black, ink to white.
+    // The backdrop is black for linear light and white, like paper, for display formats.
     request.display.background_srgb = glm::vec3(format.IsLinear() ? 0.0f : 1.0f);
   }
 }
@@ -91,7 +91,7 @@ void PrintStats(const RenderOptions& options, const CommandStats& stats) {
   }
 }
 
-// Calls render(settings), which reports progress while it draws.
+// Calls draw(settings) with settings that report progress while it renders.
 template <class Draw>
 void DrawWithProgress(const RenderOptions& options, RenderSettings settings, const Draw& draw) {
   const Progress::Style style = Progress::StyleFor(options.quiet, options.progress ? &*options.progress : nullptr);
@@ -102,8 +102,8 @@ void DrawWithProgress(const RenderOptions& options, RenderSettings settings, con
   draw(settings);
 }
 
-// How many rows a band of the picture has; 0: it is drawn whole. A PNG whose film is large is drawn, encoded and
-// written band by band, so that the memory it takes does not grow with it.
+// The number of rows in a band of the image, or 0 to render it as a whole. A PNG with a large film is rendered, encoded
+// and written in bands, so that the memory needed does not grow with its height.
 int BandRows(const RenderOptions& options) {
   constexpr std::uint64_t kLargestWhole = std::uint64_t{256} << 20, kBand = std::uint64_t{64} << 20;  // bytes of film
   const RenderSettings& settings = options.request.settings;
@@ -114,7 +114,7 @@ int BandRows(const RenderOptions& options) {
   return large && streamed ? static_cast<int>(std::max<std::uint64_t>(std::min(kBand, limit / 8) / row_bytes, 1)) : 0;
 }
 
-// What it takes to write a picture that is drawn whole; RenderSettings::memory_limit is about drawing it.
+// Checks the memory for encoding an image that is rendered as a whole. RenderSettings::memory_limit covers rendering.
 void CheckMemory(const RenderOptions& options) {
   const RenderRequest& request = options.request;
   const RenderSettings& settings = request.settings;
@@ -128,7 +128,7 @@ void CheckMemory(const RenderOptions& options) {
   budget.Charge(2 * pixels, 4 * SizeOf(request.type), "its encoded pixels and the encoder's copy", {}, remedy);
 }
 
-// Loads, draws, encodes and writes.
+// Loads the scene, renders it, and encodes and writes the image.
 class Drawing {
  public:
   Drawing(const RenderOptions& options, CommandStats& stats)
@@ -171,7 +171,7 @@ class Drawing {
     Film film;
     DrawWithProgress(options_, settings_,
                      [&](const RenderSettings& settings) { film = Render(loaded_.scene, settings, &stats_.render); });
-    settings_ = {}, loaded_ = {};  // the scene's memory is given back before the picture is encoded
+    settings_ = {}, loaded_ = {};  // frees the scene's memory before encoding
     stats_.render_seconds = stage_.Lap();
     PrintWarnings(stats_.render.warnings, options_);
 
@@ -206,7 +206,7 @@ class Drawing {
     RefuseOverwriting(outputs, inputs);
   }
 
-  // What the picture says of itself, less its digests.
+  // The provenance to store in the file, without its digests.
   Provenance Origin() const {
     Provenance provenance;
     provenance.version = Version();
@@ -256,7 +256,7 @@ void RenderToFile(RenderOptions& options) {
 
 }  // namespace
 
-// --threads also bounds loading, encoding and writing.
+// --threads also limits the threads for loading, encoding and writing.
 void RunRender(RenderOptions options) {
   RunWithThreads(options.request.settings.threads, [&] { RenderToFile(options); });
 }

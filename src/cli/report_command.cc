@@ -27,7 +27,7 @@ Writer WriterFor(const std::filesystem::path& path) {
               "use .html, .json or .csv");
 }
 
-// One line on a terminal that is written anew.
+// Overwrites one line on the terminal.
 void ShowProgress(double share, const std::string& what) {
   std::fprintf(stderr, "\r\033[Kmeasuring: %3d %% %s", static_cast<int>(100.0 * share), what.c_str());
 }
@@ -52,7 +52,7 @@ bool IsApproximation(const std::string& name) {
   return false;
 }
 
-// A stored report speaks for one scene and one picture of it.
+// A stored report is valid only for its scene and for the settings that it was made with.
 void RefuseOtherSettings(const ErrorReport& report, const RenderOptions& options) {
   const std::string name = Printable(options.report->string());
   if (report.scene != options.input.filename().string()) {
@@ -65,7 +65,7 @@ void RefuseOtherSettings(const ErrorReport& report, const RenderOptions& options
   };
   for (const RequestOption& known : RequestOptions()) {
     const std::string option(known.name);
-    // Approximations are what is chosen; those that are asked for by name must be what the report started from.
+    // Approximations are chosen from the report, but those given explicitly must equal the ones it was made with.
     if (!known.sweep.empty() && !options.request.Given(option)) continue;
     if (value(report.settings, option) == value(wanted, option)) continue;
     throw Error(ErrorCode::InvalidUsage,

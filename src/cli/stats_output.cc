@@ -19,7 +19,7 @@ namespace {
 std::uint64_t PeakResidentBytes() {
   rusage usage{};
   if (getrusage(RUSAGE_SELF, &usage) != 0) return 0;
-  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024u;  // Linux counts kibibytes
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024u;  // Linux reports kibibytes
 }
 
 struct Time {
@@ -28,7 +28,7 @@ struct Time {
   double seconds;
 };
 
-// Stages in order; those of the library lie within "render".
+// The stages in order; the indented stages of the library are parts of "render".
 std::array<Time, 11> Times(const CommandStats& s) {
   const RenderStats& r = s.render;
   return {{{"load", "load", s.load_seconds},

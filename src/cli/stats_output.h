@@ -1,4 +1,4 @@
-// What a rendering took, for people and for programs.
+// Time and memory that a rendering took, as a table and as JSON.
 #pragma once
 
 #include <cstddef>
@@ -8,24 +8,24 @@
 
 namespace facet::cli {
 
-// Around the RenderStats of the library: what the program itself did. Times are wall-clock seconds.
+// The library's RenderStats, and the program's own stages around it. Times are wall-clock seconds.
 struct CommandStats {
   std::string input, output;
   int width = 0, height = 0, samples = 0;
-  double load_seconds = 0;         // the scene's file
-  double environment_seconds = 0;  // the environment's file
+  double load_seconds = 0;         // scene file
+  double environment_seconds = 0;  // environment file
   double render_seconds = 0;
-  double encode_seconds = 0;  // exposure to encoding
+  double encode_seconds = 0;  // from exposure to encoding
   double write_seconds = 0;
   double total_seconds = 0;  // since the program's start
   std::size_t input_bytes = 0;
   RenderStats render;
 };
 
-// Lines for standard error.
+// A table for standard error.
 std::string StatsTable(const CommandStats& stats);
 
-// One JSON object and a line end. Keys are stable: "input", "output", "width", "height", "samples", "threads",
+// One JSON object and a newline. Keys are stable: "input", "output", "width", "height", "samples", "threads",
 // "target", "camera" {...}, "facet", "seconds" {...}, "counts" {...}, "bytes" {...}, "warnings" [...].
 std::string StatsJson(const CommandStats& stats);
 

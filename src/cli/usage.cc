@@ -12,7 +12,7 @@
 namespace facet::cli {
 namespace {
 
-// CLI11's own page, less its blank lines, with a usage line that shows the required option too.
+// CLI11's help page without its blank lines, and with a usage line that includes the required options.
 class Page : public CLI::Formatter {
  public:
   explicit Page(std::string usage) : usage_(std::move(usage)) { label("Positionals", "Arguments"); }
@@ -34,7 +34,7 @@ class Page : public CLI::Formatter {
   std::string usage_;
 };
 
-// Levenshtein's distance, for "did you mean".
+// The Levenshtein distance, for suggestions.
 std::size_t EditDistance(const std::string& a, const std::string& b) {
   std::vector<std::size_t> row(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
@@ -50,7 +50,7 @@ std::size_t EditDistance(const std::string& a, const std::string& b) {
   return row.back();
 }
 
-// The option or command of `app` that `text` is most likely meant to be; empty when none is near.
+// The option or command of `app` whose name is nearest to `text`; empty if none is near.
 std::string Nearest(const CLI::App& app, const std::string& text) {
   std::string best;
   std::size_t best_distance = 3;
@@ -80,7 +80,7 @@ Error UsageError(const CLI::App& app, const CLI::ParseError& complaint) {
   const std::string page = chosen.empty() ? "'facet --help'" : "'facet " + command.get_name() + " --help'";
   std::vector<std::string> extras = app.remaining(true);
   extras.erase(std::remove(extras.begin(), extras.end(), "--"), extras.end());
-  if (!extras.empty()) {  // a misspelt option also makes others look missing: it comes first
+  if (!extras.empty()) {  // reported first, since a misspelt option can also make a required one seem missing
     const auto option = std::find_if(extras.begin(), extras.end(), [](const std::string& s) { return s[0] == '-'; });
     const std::string& first = option != extras.end() ? *option : extras.front();
     const std::string name = first.substr(0, first.find('='));

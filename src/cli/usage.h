@@ -1,4 +1,4 @@
-// Help pages and complaints of the command line.
+// Help pages and error messages of the command line.
 #pragma once
 
 #include <string>
@@ -12,10 +12,10 @@ class ParseError;
 
 namespace facet::cli {
 
-// CLI11's help page, less its blank lines, beginning with `usage`.
+// CLI11's help page without its blank lines, beginning with `usage`.
 void SetPage(CLI::App& app, const std::string& usage);
 
-// CLI11's complaint as ours, naming the option and, where a name is misspelt, the nearest one there is.
+// Converts CLI11's error to facet's, which names the option and, if a name is misspelt, suggests the nearest one.
 Error UsageError(const CLI::App& app, const CLI::ParseError& complaint);
 
 }  // namespace facet::cli
