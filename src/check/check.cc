@@ -29,7 +29,7 @@ using Clock = std::chrono::steady_clock;
 
 double SecondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-// What the loader complains of, as a place in the manifest.
+// Converts an error of the loader to one that names its position in the manifest.
 Error Placed(const Manifest& manifest, const ManifestEntry& entry, const Error& error) {
   const std::string& where = error.where();
   const auto at = [&](const std::string& pointer, const std::string& message) {
@@ -44,7 +44,7 @@ Error Placed(const Manifest& manifest, const ManifestEntry& entry, const Error& 
   return at(of_sky ? SettingPointer(entry, "environment") : entry.pointer + "/scene", where + ": " + error.message());
 }
 
-// A golden picture, as a file and decoded.
+// A golden image: the bytes of its file, and the decoded image.
 struct Golden {
   Bytes file;
   Image image;
@@ -83,7 +83,7 @@ ExpectedInputs HashInputs(const RenderInputs& inputs) {
   return {scene.description, scene.geometry, scene.textures, HashEnvironment(inputs.settings.environment)};
 }
 
-// Whose difference it is: a decoder's or the renderer's.
+// Says whether the inputs differ, and which, or else the settings or the renderer.
 std::string Blame(const ExpectedInputs& expected, const ExpectedInputs& actual) {
   std::vector<std::string> differ;
   if (expected.description != actual.description) differ.push_back("description");
@@ -94,11 +94,11 @@ std::string Blame(const ExpectedInputs& expected, const ExpectedInputs& actual) 
   return "the inputs differ: " + Joined(differ) + " (another file, or another version of its decoder?)";
 }
 
-// Runs one entry.
+// Checks one entry of the manifest.
 class Check {
  public:
-  // `pictures`: what all pictures that are kept may take.
-  // `inputs`: what all entries start from.
+  // `pictures`: the memory budget of the images that all entries keep for the report.
+  // `inputs`: the input files of all entries, which must not be overwritten.
   Check(const Manifest& manifest, std::size_t index, const CheckOptions& options, int threads, MemoryBudget& pictures,
         const FileSet& inputs)
       : manifest_(manifest),
@@ -110,10 +110,10 @@ class Check {
         pictures_(pictures),
         inputs_(inputs) {}
 
-  // The result, and what shall stand in the manifest from now on.
+  // Returns the result, and the new expectation for the manifest if the entry is updated.
   std::pair<CheckedEntry, std::optional<NewExpectation>> Run() {
     const Clock::time_point start = Clock::now();
-    MemoryBudget budget(options_.load.memory_limit);  // of what is neither loading nor rendering
+    MemoryBudget budget(options_.load.memory_limit);  // for work other than loading and rendering
     const MemoryBudget::Scope scope(budget);
     result_.name = entry_.name;
     result_.place = PlaceIn(manifest_, entry_.pointer);
@@ -203,7 +203,7 @@ class Check {
     }
   }
 
-  // None where none is listed, or where it is to be replaced anyway.
+  // None if the entry lists no golden image, or if it cannot be read and will be replaced anyway.
   std::optional<Golden> FindGolden() const {
     if (!expect_.picture) return std::nullopt;
     const std::filesystem::path path = PicturePath();
@@ -226,7 +226,7 @@ class Check {
     }
   }
 
-  // The film is the expected one: what is left to judge is how it was encoded.
+  // Sets the verdict if the film is equal to the expected one: then only the encoded image can differ.
   void JudgePicture() {
     const std::optional<ImageDifference>& difference = result_.difference;
     const bool within =
@@ -238,7 +238,7 @@ class Check {
     }
   }
 
-  // The film is another than the expected one, or none is expected.
+  // Sets the verdict if the film differs from the expected one, or none is expected.
   void Judge() {
     const std::optional<ImageDifference>& difference = result_.difference;
     result_.verdict = Verdict::Failed;
@@ -264,7 +264,7 @@ class Check {
     }
   }
 
-  // Says whose difference it is, and makes what is found what is expected, where that is asked for.
+  // Adds the cause of the difference to the message and, with --update, replaces the expectation by the result.
   void Settle(const Image& actual, const RenderInputs& inputs, bool same_film) {
     const bool update = options_.update && (expect_.film || result_.verdict == Verdict::Failed);
     std::vector<std::string> done;
@@ -291,7 +291,7 @@ class Check {
     const std::filesystem::path path = PicturePath();
     RefuseOverwritingAnyOf(inputs_, {path});
     RefuseOverwriting({path}, scene_files);
-    std::error_code ignored;  // writing says it better
+    std::error_code ignored;  // writing the file reports a better error
     std::filesystem::create_directories(path.parent_path(), ignored);
     const Provenance provenance{Version(), entry_.scene.filename().string(), SpelledOut(entry_.request), *result_.film,
                                 HashImage(actual)};
@@ -319,7 +319,7 @@ class Check {
   MemoryBudget& pictures_;
   const FileSet& inputs_;
   bool out_of_memory_ = false;
-  std::string other_size_;  // what is wrong where the golden picture has another size than the rendering
+  std::string other_size_;  // the message if the golden image has another size than the rendering
   CheckedEntry result_;
   std::optional<NewExpectation> update_;
 };
@@ -340,7 +340,7 @@ std::vector<std::size_t> Selected(const Manifest& manifest, const std::string& o
   return selected;
 }
 
-// What an update must not write over, whichever entry it is for.
+// The input files of all entries, which no update may overwrite.
 FileSet InputsOf(const Manifest& manifest) {
   FileSet files;
   files.Add(manifest.path);
@@ -373,7 +373,7 @@ std::size_t CheckReport::Count(Verdict verdict) const {
 CheckReport CheckManifest(const std::filesystem::path& path, const CheckOptions& options) {
   const Clock::time_point start = Clock::now();
   CheckThreads(options.threads);
-  MemoryBudget whole(options.load.memory_limit);  // of the manifest, and what is said about it
+  MemoryBudget whole(options.load.memory_limit);  // for the manifest and the report
   const MemoryBudget::Scope scope(whole);
   const Manifest manifest = ReadManifest(path);
   CheckReport report;
@@ -383,7 +383,8 @@ CheckReport CheckManifest(const std::filesystem::path& path, const CheckOptions&
   const std::vector<std::size_t> selected = Selected(manifest, options.only);
   report.entries.resize(selected.size());
   std::vector<std::optional<NewExpectation>> updates(selected.size());
-  // Without a bound the threads of entries that are done help the others. With one, each entry has its fixed share.
+  // By default, threads whose entry is finished help with others. With --threads, each entry has a fixed number of
+  // them.
   const int most = static_cast<int>(std::min<std::size_t>(selected.size(), 16384));
   const int beside = options.threads == 0 ? 0 : std::max(1, std::min(options.threads, most));
   const int each = options.threads == 0 ? 0 : options.threads / beside;
@@ -399,7 +400,8 @@ CheckReport CheckManifest(const std::filesystem::path& path, const CheckOptions&
     CheckOptions share = options;
     share.load.memory_limit = pictures.limit() / std::min<std::uint64_t>(CurrentThreadCount(), selected.size());
     ParallelFor(selected.size(), 1, [&](std::size_t i, std::size_t) { run(i, share); });
-    // What did not fit beside the others has all memory for itself now: what is refused does not depend on threads.
+    // Entries that ran out of memory are run again alone with the whole limit, so that results do not depend on
+    // threads.
     for (std::size_t i = 0; i < selected.size(); ++i) {
       if (refused[i]) run(i, options);
     }

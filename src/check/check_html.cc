@@ -1,4 +1,4 @@
-// The report for people: one HTML file that needs no other and no network, and can be read without JavaScript.
+// The report as a self-contained HTML file, which can be read without network access and without JavaScript.
 #include <string>
 #include <string_view>
 
@@ -36,8 +36,8 @@ img { display: block; max-width: 100%; min-width: min(12em, 100%); image-renderi
 .blink input { width: 100%; }
 )";
 
-// A fourth figure beside the three: actual over expected. The slider cuts, a click or the button changes over, and
-// "blink" does that by itself.
+// Adds a fourth figure, which shows the actual image over the expected one. The slider moves the boundary between them,
+// a click or the "change" button switches between them, and "blink" switches repeatedly.
 constexpr std::string_view kScript = R"(
 for (const pictures of document.querySelectorAll('.pictures')) {
   const expected = pictures.querySelector('.expected img'), actual = pictures.querySelector('.actual img');

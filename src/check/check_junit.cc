@@ -12,7 +12,7 @@ std::string Attribute(const char* name, const std::string& value) {
   return std::string(" ") + name + "=\"" + Escaped(value) + "\"";
 }
 
-// A failure or an error, with what it says as content too: some readers show one, some the other.
+// A failure or an error. The message is both an attribute and the content, since readers show either of them.
 std::string Complaint(const char* element, const char* type, const std::string& message, const std::string& place) {
   return std::string("      <") + element + Attribute("type", type) + Attribute("message", message) + ">" +
          Escaped(place + ": " + message) + "</" + element + ">\n";
@@ -32,7 +32,7 @@ std::string Hashes(const CheckedEntry& entry) {
   return text.empty() ? text : text + ")";
 }
 
-// What the loader and the renderer noticed: a missing texture, say. Readers show it as the test's output.
+// Warnings of the loader and the renderer, such as a missing texture. Readers show them as the test's output.
 std::string Warnings(const CheckedEntry& entry) {
   std::string lines;
   for (const std::string& warning : entry.warnings) lines += "warning: " + Escaped(warning) + "\n";

@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// A value of the manifest and where it stands.
+// A value of the manifest and its JSON pointer.
 struct Value {
   const Json& json;
   Json::json_pointer pointer;
@@ -54,7 +54,7 @@ Digest ReadDigest(const Value& value) {
   value.Fail(Quoted(value.Text()) + " is no SHA-256", "64 hexadecimal digits; --update writes them");
 }
 
-// A setting as the text that the command line would give.
+// A setting as text, as it would be given on the command line.
 std::string SettingText(const Value& value) {
   if (value.json.is_string()) return value.json.get<std::string>();
   value.Expect(value.json.is_number(), "string or number");
@@ -119,7 +119,7 @@ Expectation ReadExpectation(const Value& value) {
   return expect;
 }
 
-// Names name files too.
+// Reads the name of an entry, which must also be valid as a file name.
 const std::string& ReadName(const Value& value) {
   const std::string& name = value.Text();
   const bool good = !name.empty() && name.size() <= 200 && name[0] != '.' && name.find('/') == std::string::npos &&
@@ -146,8 +146,8 @@ void ReadEntry(const Value& value, ManifestEntry& entry) {
   if (value.Has("expect")) entry.expect = ReadExpectation(value["expect"]);
 }
 
-// JSON lets a key stand twice and keeps the last value: one of two that somebody meant. No object of a manifest has
-// very many keys, and those of the parser take time that grows with their square. Looks at a text before it is parsed.
+// Checks the text before it is parsed. Refuses duplicate keys, of which the parser would silently keep the last, and
+// objects with very many keys, for which the parser takes quadratic time.
 class KeyGuard : public nlohmann::json_sax<Json> {
  public:
   explicit KeyGuard(const std::string& file) : file_(file) {}
@@ -169,7 +169,9 @@ class KeyGuard : public nlohmann::json_sax<Json> {
   bool binary(binary_t&) override { return true; }
   bool start_array(std::size_t) override { return true; }
   bool end_array() override { return true; }
-  bool parse_error(std::size_t, const std::string&, const Json::exception&) override { return false; }  // said later
+  bool parse_error(std::size_t, const std::string&, const Json::exception&) override {
+    return false;
+  }  // Json::parse() reports it
 
  private:
   void Fail(const std::string& message) const { throw Error(ErrorCode::InvalidInput, message, file_); }
@@ -193,7 +195,7 @@ Json Parse(const std::string& text, const std::string& file) {
     const auto line = 1 + std::count(before.begin(), before.end(), '\n');
     const std::size_t column = before.size() - (before.rfind('\n') + 1) + 1;  // npos + 1 is 0
     std::string what = Printable(error.what());
-    what.erase(0, what.find(": ") + 2);  // the library's own place
+    what.erase(0, what.find(": ") + 2);  // removes the position in the parser's message
     throw Error(ErrorCode::InvalidInput, what, file + ":" + std::to_string(line) + ":" + std::to_string(column));
   } catch (const Json::exception& error) {
     throw Error(ErrorCode::InvalidInput, Printable(error.what()), file);
@@ -246,7 +248,7 @@ Manifest ReadManifest(const std::filesystem::path& path) {
   entries.Expect(entries.json.is_array(), "list");
   if (entries.json.empty()) entries.Fail("is empty: there is nothing to check", "list a scene at least");
 
-  constexpr std::size_t kEntry = sizeof(ManifestEntry) + 1024;  // with its names, and what the check says about it
+  constexpr std::size_t kEntry = sizeof(ManifestEntry) + 1024;  // with its strings and its result
   MemoryBudget::Current().Charge(entries.json.size(), kEntry, "entries", manifest.name);
   manifest.entries.reserve(entries.json.size());
   std::map<std::string, std::string> pointer_of_name, pointer_of_picture;

@@ -18,7 +18,7 @@
 namespace facet {
 namespace {
 
-// The settings that stand in a picture. Throws Error(InvalidInput).
+// The settings that are stored in a picture file. Throws Error(InvalidInput).
 RenderRequest ReadRequest(const Provenance& provenance, const std::string& picture) {
   RenderRequest request;
   for (const auto& [name, text] : provenance.settings) {
@@ -32,7 +32,7 @@ RenderRequest ReadRequest(const Provenance& provenance, const std::string& pictu
   return request;
 }
 
-// Both of one size and form.
+// Finds the bounding rectangle of the differing pixels. Both images have the same size and format.
 void FindRectangle(const Image& a, const Image& b, Verification& v) {
   const std::size_t pixel_bytes = std::size_t(a.channels) * SizeOf(a.type);
   v.left = a.width;

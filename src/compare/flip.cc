@@ -27,8 +27,8 @@ constexpr Triple operator*(const Matrix& m, const Triple& v) {
   return result;
 }
 
-// X, Y, Z of linear Rec. 709 light, each divided by that of white (D65): the rows of the sRGB primaries' matrix, scaled
-// to the sum 1.
+// Converts linear Rec. 709 light to X, Y, Z relative to white (D65): the rows of the matrix of the sRGB primaries, each
+// scaled to the sum 1.
 constexpr Matrix WhiteRelativeFromRgb() {
   Matrix m = {{{10135552.0 / 24577794.0, 8788810.0 / 24577794.0, 4435075.0 / 24577794.0},
                {2613072.0 / 12288897.0, 8788810.0 / 12288897.0, 887015.0 / 12288897.0},
@@ -59,9 +59,9 @@ constexpr Matrix Inverse(const Matrix& m) {
 constexpr Matrix kXyzFromRgb = WhiteRelativeFromRgb();
 constexpr Matrix kRgbFromXyz = Inverse(kXyzFromRgb);
 
-// The cube root of a normal number to 1e-14 of its value: two of Halley's steps from an estimate that divides the
-// exponent by 3 in the bits (W. Kahan, 1991, "Computing a Real Cube Root"). Six are needed for each pixel; facet's own
-// Cbrt, good to the last bit, is ten times as slow.
+// The cube root of a normal number with a relative error of 1e-14: two Halley steps from an estimate that divides the
+// exponent by 3 in the bits (W. Kahan, 1991, "Computing a Real Cube Root"). Each pixel needs six cube roots, and
+// facet's own Cbrt, which is accurate to the last bit, takes ten times as long.
 double CubeRoot(double x) {
   double root = std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) / 3 + (std::uint64_t(0x2A9F7893) << 32));
   for (int step = 0; step < 2; ++step) {
@@ -71,7 +71,7 @@ double CubeRoot(double x) {
   return root;
 }
 
-// CIELAB of linear RGB, its chroma fading with lightness (Hunt effect): section 4.1.2.
+// CIELAB of linear RGB, with chroma scaled by lightness to account for the Hunt effect: section 4.1.2.
 Triple HuntLab(const Triple& rgb) {
   constexpr double kDelta = 6.0 / 29.0;
   Triple f = kXyzFromRgb * rgb;
@@ -80,8 +80,8 @@ Triple HuntLab(const Triple& rgb) {
   return {lightness, 0.01 * lightness * 500.0 * (f[0] - f[1]), 0.01 * lightness * 200.0 * (f[1] - f[2])};
 }
 
-// City block in lightness, Euclidean in chroma (I. Abasi and others, 2020, "Distance Metrics for Very Large Color
-// Differences").
+// HyAB distance: city block in lightness, Euclidean in chroma (I. Abasi and others, 2020, "Distance Metrics for Very
+// Large Color Differences").
 double HyAb(const Triple& p, const Triple& q) {
   const double a = p[1] - q[1], b = p[2] - q[2];
   return std::abs(p[0] - q[0]) + std::sqrt(a * a + b * b);
@@ -100,7 +100,7 @@ Kernel MakeKernel(int radius, auto&& weight) {
   return kernel;
 }
 
-// Positive weights add up to `sum`, negative ones to -`sum`.
+// Scales the weights so that the positive ones add up to `sum`, and the negative ones to -`sum`.
 Kernel Normalised(Kernel kernel, double sum = 1.0) {
   double positive = 0.0, negative = 0.0;
   for (const double w : kernel.weights) (w > 0.0 ? positive : negative) += w;
@@ -108,13 +108,13 @@ Kernel Normalised(Kernel kernel, double sum = 1.0) {
   return kernel;
 }
 
-// The eye's contrast sensitivity as Gaussians, table 1: a1 = 1, b1 = 0.0047 for lightness, 0.0053 for red-green, and
-// the sum of two for blue-yellow, each of which is separable.
+// The eye's contrast sensitivity as Gaussians, table 1: a1 = 1, b1 = 0.0047 for lightness, 0.0053 for red-green, and a
+// sum of two Gaussians for blue-yellow, each of which is separable.
 struct Filters {
-  Kernel lightness, red_green, blue_yellow1, blue_yellow2;  // along x; along y too, less:
-  Kernel blue_yellow1_y, blue_yellow2_y;                    // these have the shares of the sum
+  Kernel lightness, red_green, blue_yellow1, blue_yellow2;  // along x, and along y except:
+  Kernel blue_yellow1_y, blue_yellow2_y;                    // scaled by their weights in the sum
   Kernel gauss, edge, point;                                // section 4.2: derivatives of one Gaussian
-  int radius = 0;                                           // the largest
+  int radius = 0;                                           // the largest of all kernels
 
   explicit Filters(double pixels_per_degree) {
     constexpr double kPiSquared = std::numbers::pi * std::numbers::pi;
@@ -169,7 +169,7 @@ void AddScaled(const double* in, double weight, int count, double* __restrict ou
   for (int i = 0; i < count; ++i) out[i] += weight * in[i];
 }
 
-// `out` has lost `margin` pixels on the left and on the right; the kernel's radius is at most that.
+// `out` is narrower than `in` by `margin` pixels on either side; the kernel's radius is at most `margin`.
 void FilterAlongX(const Plane& in, const Kernel& kernel, int margin, Plane& out) {
   out.Reset(in.width - 2 * margin, in.height);
   const int first = margin - kernel.radius();
@@ -180,7 +180,7 @@ void FilterAlongX(const Plane& in, const Kernel& kernel, int margin, Plane& out)
   }
 }
 
-// The same above and below, adding to `out`, which has its size.
+// The same along y, but adds to `out`, which already has the right size.
 void AddFilteredAlongY(const Plane& in, const Kernel& kernel, int margin, Plane& out) {
   const int first = margin - kernel.radius();
   for (int y = 0; y < out.height; ++y) {
@@ -196,8 +196,8 @@ struct Tile {
   int x = 0, y = 0, width = 0, height = 0;  // pixels
 };
 
-// Whether all that a filtered tile depends on has the same bits in both images: then its errors are 0. Most tiles of
-// images that are expected to be equal.
+// Whether all pixels that a filtered tile depends on have the same bits in both images, so that its errors are 0. This
+// is true for most tiles of images that are expected to be equal.
 bool AreSameAround(const Tile& tile, int margin, const Image& a, const Image& b) {
   const int left = std::max(tile.x - margin, 0), right = std::min(tile.x + tile.width + margin, a.width);
   const int top = std::max(tile.y - margin, 0), bottom = std::min(tile.y + tile.height + margin, a.height);
@@ -209,7 +209,7 @@ bool AreSameAround(const Tile& tile, int margin, const Image& a, const Image& b)
   return true;
 }
 
-// How an exposure shows light.
+// How light is converted for display at one exposure.
 struct Viewing {
   float backdrop = 0.0f;
   bool tone_mapped = false;
@@ -252,7 +252,7 @@ class TileView {
  private:
   static double Length(double x, double y) { return std::sqrt(x * x + y * y); }
 
-  // The opponent channels YCxCz, without their constant factors: all that follows is linear up to the way back.
+  // The opponent channels YCxCz without their constant factors, which cancel since filtering is linear.
   void Load(const Image& image, const Tile& tile, int margin, const Viewing& viewing) {
     for (Plane* plane : {&y_, &x_minus_y_, &y_minus_z_}) {
       plane->Reset(tile.width + 2 * margin, tile.height + 2 * margin);
@@ -265,7 +265,7 @@ class TileView {
         const float* pixel = pixels + (static_cast<std::size_t>(from_y) * image.width + from_x) * 4;
         Triple rgb = OverBackdrop(pixel, viewing.backdrop);
         for (double& value : rgb) {
-          // The tone curve is no curve below 0.
+          // The tone curve is defined only from 0.
           if (viewing.tone_mapped) value = FlipToneCurve(std::max(value, 0.0) * viewing.factor);
           value = std::clamp(value, 0.0, 1.0);
         }
@@ -285,7 +285,7 @@ class TileView {
 
 class ErrorScale {
  public:
-  // Sections 4.1.3, 4.2 and 4.3: `distance` is HyAB's, `feature` the larger difference of edges and points.
+  // Sections 4.1.3, 4.2 and 4.3: `distance` is the HyAB distance, `feature` the larger difference of edges and points.
   double Error(double distance, double feature) const {
     if (distance == 0.0) return 0.0;
     const double strength = std::sqrt(std::min(feature / std::numbers::sqrt2, 1.0));
@@ -295,7 +295,7 @@ class ErrorScale {
  private:
   static constexpr double kPower = 0.7, kKnee = 0.4, kKneeError = 0.95;
 
-  // Nearly all pixels of nearly all images are below the knee: one logarithm instead of two powers.
+  // Nearly all pixels are below the knee, where one logarithm replaces two powers.
   double Log2OfColourError(double distance) const {
     const double log2_power = kPower * Log2(distance);
     if (log2_power < log2_knee_) return log2_power + log2_slope_;
@@ -309,7 +309,7 @@ class ErrorScale {
   double log2_slope_ = Log2(kKneeError / knee_);
 };
 
-// Raises `errors`, one a pixel of the image, to those of a tile.
+// Raises the per-pixel `errors` of the image to those of a tile where these are larger.
 void RaiseErrors(const TileView& reference, const TileView& test, const Tile& tile, const ErrorScale& scale,
                  int image_width, std::vector<float>& errors) {
   std::size_t i = 0;
@@ -334,7 +334,7 @@ std::vector<float> FlipErrors(const Image& reference, const Image& test, const F
   if (viewings.empty()) viewings.push_back({settings.backdrop, false, 1.0});
 
   std::vector<float> errors(reference.PixelCount(), 0.0f);
-  // Wide filters need wide tiles, or most of the work would be done on the margins.
+  // Tiles grow with the filters; otherwise most of the work would be spent on margins.
   const int side = std::max(128, 4 * filters.radius);
   const int columns = (reference.width + side - 1) / side, rows = (reference.height + side - 1) / side;
   const std::size_t tiles = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);

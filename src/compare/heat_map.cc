@@ -1,4 +1,4 @@
-// The FLIP map in colours.
+// Shows a map of FLIP errors in colours.
 #include <algorithm>
 #include <array>
 #include <cstddef>

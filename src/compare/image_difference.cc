@@ -28,9 +28,9 @@ bool AreIntegersOfOneEncoding(const Image& a, const Image& b) {
   return a.type != ChannelType::F32 && b.type != ChannelType::F32 && a.encoding == b.encoding;
 }
 
-// One image, in both forms that measures need.
+// One image in the two forms that the measures need.
 struct Side {
-  Image numbers;  // RGBA as it is compared; empty where that is linear light
+  Image numbers;  // RGBA components to compare; empty if those are the linear light
   Image light;    // RGBA, linear, F32
 
   const Image& Compared() const { return numbers.bytes.empty() ? light : numbers; }
@@ -49,7 +49,7 @@ void CopyRow(const Image& rgba, int y, double scale, std::vector<double>& row) {
   for (std::size_t i = 0; i < row.size(); ++i) row[i] = static_cast<double>(from[i]) / scale;
 }
 
-// A row of an RGBA image; codes as fractions, so that 8 and 16 bits of one value are the same double.
+// Reads a row of an RGBA image. Integer codes become fractions, so that equal values of 8 and 16 bits are equal.
 void ReadRow(const Image& rgba, int y, std::vector<double>& row) {
   row.resize(static_cast<std::size_t>(rgba.width) * 4);
   if (rgba.type == ChannelType::U8) return CopyRow<std::uint8_t>(rgba, y, 255.0, row);
@@ -63,7 +63,7 @@ bool IsFinite(const double* rgba) {
 
 bool SameBits(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
 
-// What one row, or all of them, says pixel by pixel.
+// Per-pixel measures, summed up over one row or the image.
 struct Sums {
   double max_difference = -1.0;
   int max_x = 0, max_y = 0;
@@ -83,11 +83,11 @@ struct Sums {
   }
 };
 
-// The difference of two fractions that ReadRow made of codes, as if the codes were subtracted: the same for equal steps
-// anywhere in the range.
+// The difference of two fractions of ReadRow as if their integer codes were subtracted, so that equal steps of codes
+// give equal differences anywhere in the range.
 double CodeDifference(double a, double b) { return std::floor(std::abs(a - b) * 65535.0 + 0.5) / 65535.0; }
 
-// `broken`: a row; set to 1 where the pixels differ in a number that is not finite.
+// `broken`: one flag per pixel of the row, set to 1 if the pixels differ and one of them is not finite.
 Sums SumRow(const std::vector<double>& a, const std::vector<double>& b, int y, int channels, bool codes,
             std::uint8_t* broken) {
   Sums sums;
@@ -126,7 +126,7 @@ Sums SumPixels(const Image& a, const Image& b, int channels, std::vector<std::ui
       rows[y] = SumRow(row_a, row_b, static_cast<int>(y), channels, a.type != ChannelType::F32, broken_row);
     }
   });
-  Sums all;  // row by row: the order does not depend on threads
+  Sums all;  // summed row by row, in an order that does not depend on threads
   for (const Sums& row : rows) all.Add(row);
   return all;
 }
@@ -157,7 +157,7 @@ bool IsOpaque(const Image& light) {
   return true;
 }
 
-// SSIM and FLIP over each backdrop; the worse counts.
+// Computes SSIM and FLIP over each backdrop and keeps the worse value.
 void Judge(const Side& a, const Side& b, double pixels_per_degree, const std::vector<std::uint8_t>& broken,
            ImageDifference& result) {
   std::vector<float> backdrops = {0.0f};
@@ -208,7 +208,7 @@ ImageDifference CompareImages(const Image& a, const Image& b, const CompareOptio
   result.width = a.width;
   result.height = a.height;
   result.linear = !AreIntegersOfOneEncoding(a, b);
-  // Measured at 2048 x 2048: what the planes of SSIM and FLIP take besides the two images, at their most.
+  // The peak memory of the planes of SSIM and FLIP besides the two images, measured at 2048 x 2048.
   constexpr std::uint64_t kBytesPerPixel = 64, kBytesPerLinearPixel = 88;
   MemoryBudget budget(options.memory_limit);
   const MemoryBudget::Scope scope(budget);

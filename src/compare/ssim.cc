@@ -9,7 +9,7 @@
 namespace facet {
 namespace {
 
-// Weights of a Gaussian window as long as the paper's or as the side.
+// Weights of a Gaussian window with the paper's length, or that of the image's side if it is shorter.
 std::vector<double> Window(int side) {
   constexpr int kLength = 11;
   constexpr double kSigma = 1.5;
@@ -25,7 +25,7 @@ std::vector<double> Window(int side) {
   return weights;
 }
 
-// Equations 13 and 14, of the means of a, b, a^2, b^2 and ab under the window. Exactly 1 where a and b are the same.
+// Equations 13 and 14, from the means of a, b, a^2, b^2 and ab in the window. Exactly 1 if a and b are equal.
 double Ssim(double a, double b, double aa, double bb, double ab) {
   constexpr double kC1 = 0.01 * 0.01, kC2 = 0.03 * 0.03;
   const double variance_a = aa - a * a, variance_b = bb - b * b, covariance = ab - a * b;
@@ -82,7 +82,7 @@ double MeanSsim(const LumaPlane& a, const LumaPlane& b, const std::vector<std::u
       sums[top] = RowOfWindows(a, b, broken, window_x, window_y, static_cast<int>(top));
     }
   });
-  double sum = 0.0;  // row by row: the order does not depend on threads
+  double sum = 0.0;  // summed row by row, in an order that does not depend on threads
   for (const double row : sums) sum += row;
   return sum / (static_cast<double>(rows) * static_cast<double>(columns));
 }
