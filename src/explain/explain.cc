@@ -1,4 +1,4 @@
-// Explain of facet/explain.h: the plan of the frame put into words, and each of its features left out in turn.
+// Explain() of facet/explain.h: describes the plan of a frame, and measures the cost of each feature by disabling it.
 #include "facet/explain.h"
 
 #include <algorithm>
@@ -17,10 +17,10 @@ namespace facet {
 namespace {
 
 constexpr int kFewestPairs = 5, kMostPairs = 41;
-constexpr double kSecondsOfPairs = 0.3;  // of a feature, where the fewest do not take longer
+constexpr double kSecondsOfPairs = 0.3;  // for each feature, if kFewestPairs do not take longer
 constexpr double kSecondsOfPreparation = 0.5;
 
-// What a material uses, of kFeatureWords.
+// The features of kFeatureWords that a material uses.
 FeatureSet UsedFeatures(const FrameMaterial& material) {
   FeatureSet used;
   ForEachSlot(material.features, [&](Slot slot) { used.Add(InfoOf(slot).feature); });
@@ -99,7 +99,7 @@ double Quantile(std::vector<double>& values, double share) {
   return *place;
 }
 
-// A feature, and the settings of the same frame without it.
+// A feature to disable, and the settings of the same frame without it.
 struct Ablation {
   std::string feature, option;
   RenderSettings settings;
@@ -110,7 +110,7 @@ std::vector<Ablation> Ablations(const RenderSettings& settings, const FramePlan&
   const auto add = [&](std::string feature, std::string option) -> RenderSettings& {
     return ablations.emplace_back(Ablation{std::move(feature), std::move(option), settings}).settings;
   };
-  std::string already;  // the option is given once, with the whole list
+  std::string already;  // features already disabled, which the new option must list too
   for (const FeatureWord& known : kFeatureWords) {
     if (settings.without.Has(known.feature)) already += std::string(known.word) + ",";
   }
@@ -132,7 +132,7 @@ class Measurement {
  public:
   Measurement(const Scene& scene, const RenderSettings& settings) : scene_(scene), settings_(settings) {}
 
-  // The first frame of all also makes what a process makes once.
+  // The very first frame also includes the work that is done once per process.
   void MeasureFrames(Explanation& out) {
     Renderer(scene_).Render(settings_, film_, &out.first);
     prepared_ = FirstFrame(renderer_, settings_);
@@ -151,12 +151,12 @@ class Measurement {
     cost.option = ablation.option;
     cost.bytes = BytesKept(prepared_) - BytesKept(prepared);
     cost.first_seconds = MeasurePreparation(ablation, prepared);
-    // What a process makes once, only the very first frame made.
+    // The environment is prepared once per process, so that only the very first frame has its cost.
     if (prepared_.environment_bytes > 0 && prepared.environment_bytes == 0) {
       cost.first_seconds += first.environment_seconds;
     }
     std::vector<double> differences;
-    Repeat(kFewestPairs, kSecondsOfPairs, [&] {  // whichever is first may find the machine in another state
+    Repeat(kFewestPairs, kSecondsOfPairs, [&] {  // the order alternates, as it may affect the times
       const bool with_first = differences.size() % 2 == 0;
       const double a = with_first ? Frame(renderer_, settings_) : Frame(renderer, ablation.settings);
       const double b = with_first ? Frame(renderer, ablation.settings) : Frame(renderer_, settings_);
@@ -176,7 +176,7 @@ class Measurement {
     return stats;
   }
 
-  // Of the pose and the textures, where they are others without the feature.
+  // The time for preparing the pose and the textures, for each of them that disabling the feature changes.
   double MeasurePreparation(const Ablation& ablation, const RenderStats& prepared) {
     const bool other_pose = PoseOf(ablation.settings) != PoseOf(settings_);
     const bool other_textures = prepared.texture_bytes != prepared_.texture_bytes;
@@ -213,7 +213,7 @@ class Measurement {
   const Scene& scene_;
   const RenderSettings& settings_;
   Renderer renderer_{scene_};
-  RenderStats prepared_;  // of renderer_'s first frame
+  RenderStats prepared_;  // the first frame of renderer_
   Film film_;
 };
 
@@ -233,7 +233,7 @@ Explanation Explain(const Scene& scene, const RenderSettings& asked) {
   Explanation out;
   RunWithThreads(asked.threads, [&] {
     RenderSettings settings = asked;
-    settings.progress = nullptr;  // many frames, each of which would start anew
+    settings.progress = nullptr;  // progress would restart with every frame
     Measurement measurement(scene, settings);
     measurement.MeasureFrames(out);
     const PosedScene posed = Pose(scene, PoseOf(settings));
@@ -249,7 +249,7 @@ Explanation Explain(const Scene& scene, const RenderSettings& asked) {
     out.environment_background = plan.environment_background;
     out.planes = plan.planes;
     out.environment = EnvironmentName(settings.environment);
-    // A camera that frames the bounds would stand elsewhere without skins.
+    // The camera is fixed, because one that frames the bounds would move if skins are disabled.
     const ResolvedCamera camera = ResolveCamera(settings.camera, scene, posed, settings.width, settings.height);
     settings.camera = FreeCamera{camera.world_from_camera, camera.lens};
     for (const Ablation& ablation : Ablations(settings, plan)) {

@@ -1,4 +1,4 @@
-// An Explanation for people, as tables, and for programs, as JSON.
+// Writes an Explanation as text tables and as JSON.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -23,8 +23,8 @@ std::size_t Columns(const std::string& text) {  // on a terminal, for text witho
   return std::size_t(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
 }
 
-// Lines of cells, each column as wide as its widest cell; those below the first are indented. `alignment` has a letter
-// for each column: 'l' or 'r'.
+// Formats a table whose columns are as wide as their widest cells. Rows below the first are indented. `alignment` has
+// one letter per column: 'l' or 'r'.
 std::string Table(std::vector<std::vector<std::string>> rows, const std::string& alignment) {
   for (std::size_t r = 1; r < rows.size(); ++r) rows[r][0] = std::string(2, ' ').append(rows[r][0]);
   std::vector<std::size_t> widths(alignment.size(), 0);
@@ -141,7 +141,7 @@ std::string PlanesText(const Explanation& e) {
   return Table(rows, "lrl");
 }
 
-// "WHAT: WHY" in two.
+// Splits "WHAT: WHY" into its two parts.
 std::pair<std::string, std::string> Split(const std::string& line) {
   const std::size_t colon = line.find(": ");
   return {line.substr(0, colon), colon == std::string::npos ? std::string() : line.substr(colon + 2)};

@@ -24,7 +24,7 @@ Image DecodeWithOiio(std::span<const std::byte> bytes, std::string_view extensio
 std::vector<std::byte> EncodeWithOiio(const std::string& extension, const Image& image, bool premultiplied,
                                       const std::vector<std::array<std::string, 2>>& text = {});
 
-// The paths at which the module is searched, in order: the folders of the environment variable FACET_MODULE_PATH, the
+// The paths where the module is searched, in order: the folders of the environment variable FACET_MODULE_PATH, the
 // program's folder, the build tree, and the installation folders beside the program. The last entry has no folder,
 // which stands for the system's search path.
 std::vector<std::filesystem::path> OiioModuleCandidates();

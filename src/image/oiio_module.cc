@@ -63,8 +63,8 @@ class MemoryFile {
   int descriptor_;
 };
 
-// Receives what is written to a file. OpenImageIO's own class truncates the file behind bytes that are rewritten, which
-// TIFF does with its directory.
+// Receives the bytes of a file. OpenImageIO's own class truncates the file behind rewritten bytes, which would break
+// TIFF, where the directory is rewritten.
 class MemoryOutput final : public OIIO::Filesystem::IOProxy {
  public:
   MemoryOutput() : IOProxy("", Write) {}

@@ -28,13 +28,13 @@ std::vector<Knob> AllKnobs(SettingsText settings, int largest_environment) {
     Knob knob{std::string(option.name), Words(option.sweep), 0};
     const std::string& used = settings.at(knob.option);
     auto place = std::find(knob.values.begin(), knob.values.end(), used);
-    if (place == knob.values.end()) {  // only numbers have values between those that are tried
+    if (place == knob.values.end()) {  // only numeric options have values besides those to try
       place = std::find_if(knob.values.begin(), knob.values.end(),
                            [&](const std::string& value) { return std::stoi(value) > std::stoi(used); });
       place = knob.values.insert(place, used);
     }
     knob.used = std::size_t(place - knob.values.begin());
-    if (knob.option == "environment-size") {  // in order: those that make no difference are the last
+    if (knob.option == "environment-size") {  // larger sizes make no difference
       std::erase_if(knob.values, [&](const std::string& value) { return std::stoi(value) > largest_environment; });
     }
     knobs.push_back(std::move(knob));
@@ -49,7 +49,7 @@ std::vector<SettingsText> NeighboursOf(const SettingsText& changed, const std::v
     const std::string& value = found != changed.end() ? found->second : knob.values[knob.used];
     const auto place = std::size_t(std::find(knob.values.begin(), knob.values.end(), value) - knob.values.begin());
     for (const std::size_t step : {place - 1, place + 1}) {
-      if (step >= knob.values.size()) continue;  // also one below the first
+      if (step >= knob.values.size()) continue;  // also true for place - 1 below 0, which wraps around
       SettingsText neighbour = changed;
       if (step == knob.used) {
         neighbour.erase(knob.option);

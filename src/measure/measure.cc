@@ -57,7 +57,7 @@ class ErrorSum {
   double squares_ = 0.0, reference_squares_ = 0.0, largest_ = 0.0, numbers_ = 0.0;
 };
 
-// The means of `pixels`, width x height of them, over squares of n x n.
+// The means over squares of n x n of width x height `pixels`.
 template <class Pixel>
 std::vector<Pixel> BoxMeans(const Pixel* pixels, int width, int height, int n) {
   const int w = width / n, h = height / n;
@@ -71,9 +71,9 @@ std::vector<Pixel> BoxMeans(const Pixel* pixels, int width, int height, int n) {
   return means;
 }
 
-// How far the relative RMSE over some blocks is probably off that of the whole image, of which they are `share`: by
-// the variance of a ratio's estimate (Cochran, 1977, Sampling Techniques, section 2.11), as if the blocks had been
-// drawn without regard to one another. They are spread evenly, and so do better.
+// The standard error of the relative RMSE over blocks that are `share` of the image, as an estimate for all of it. From
+// the variance of a ratio estimate (Cochran, 1977, Sampling Techniques, section 2.11) as if the blocks were chosen
+// independently; they are spread evenly, which makes the actual error smaller.
 double StandardError(const std::vector<ErrorSum>& blocks, const ErrorSum& all, double share) {
   if (share >= 1.0 || blocks.size() < 2 || !(all.Squares() > 0.0 && all.ReferenceSquares() > 0.0)) return 0.0;
   const double ratio = all.Squares() / all.ReferenceSquares(), count = double(blocks.size());
@@ -86,8 +86,8 @@ double StandardError(const std::vector<ErrorSum>& blocks, const ErrorSum& all, d
   return of_ratio / (2.0 * std::sqrt(ratio));
 }
 
-// Calls row(first, place) for each row of a part: the indices of its first pixel in an image of some width, and in the
-// part by itself.
+// Calls row(first, place) for each row of a part, with the indices of its first pixel in the image, which is `width`
+// wide, and in the part itself.
 template <class Row>
 void ForEachRow(const PixelBlock& part, int width, const Row& row) {
   for (int y = 0; y < part.height; ++y) {
@@ -114,7 +114,7 @@ bool IsOpaque(const Image& rgba) {
   return true;
 }
 
-// An image may be much longer than wide: no side may vanish.
+// At most the shorter side, so that very long images keep at least one pixel in it.
 int Divisor(int width, int height, int longest) {
   const int n = (std::max(width, height) + longest - 1) / longest;
   return std::min({n, width, height});
@@ -123,12 +123,12 @@ int Divisor(int width, int height, int longest) {
 }  // namespace
 
 std::size_t PeakBytes(const std::function<void()>& body) {
-  malloc_trim(0);  // what earlier renderings gave back is not counted as there already
+  malloc_trim(0);  // otherwise memory freed by earlier renderings hides growth
   const std::size_t before = StatusBytes("VmRSS");
   bool reset = false;
   {
     std::ofstream clear("/proc/self/clear_refs");
-    clear << "5";  // the peak begins anew (Linux' proc(5))
+    clear << "5";  // resets the peak; see proc(5) of Linux
     clear.flush();
     reset = clear.good();
   }
@@ -204,7 +204,7 @@ FlipJudge::Verdict FlipJudge::Judge(const Image& encoded) const {
   ParallelFor(parts_.size(), 1, [&](std::size_t i, std::size_t) {
     const PixelBlock& part = parts_[i];
     const Image a = PartOf(light_, part), b = PartOf(light, part);
-    // Over black and over white, the worse: as CompareImages() does it.
+    // The larger error over black and over white, as in CompareImages().
     std::vector<float> errors = FlipErrors(a, b, {kDefaultPixelsPerDegree, 0.0f, {}});
     if (!IsOpaque(a) || !IsOpaque(b)) {
       const std::vector<float> over_white = FlipErrors(a, b, {kDefaultPixelsPerDegree, 1.0f, {}});

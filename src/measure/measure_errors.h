@@ -1,4 +1,4 @@
-// MeasureErrors() of facet/report.h by another clock than the machine's.
+// MeasureErrors() of facet/report.h with a given clock, for tests.
 #pragma once
 
 #include <filesystem>

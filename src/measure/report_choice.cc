@@ -1,4 +1,4 @@
-// The cheapest point of a report that will do.
+// Chooses the cheapest point of a report that keeps a bound.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -20,7 +20,7 @@ void RefuseUnlessPositive(const std::optional<double>& bound, const char* what) 
               "give a finite number above 0");
 }
 
-// What is not known keeps no bound and is the farthest from it.
+// An unknown value (NaN) keeps no bound and counts as the farthest from it.
 double KnownOrInfinite(double value) { return std::isnan(value) ? std::numeric_limits<double>::infinity() : value; }
 
 std::string Error4(double error) { return std::isnan(error) ? ErrorWords(error) : ShortNumber(error, 4); }

@@ -1,4 +1,4 @@
-// The report for people: one page that needs no other and no network, and no JavaScript. It is well-formed XML too.
+// The report as a self-contained HTML page without network access and JavaScript. It is also well-formed XML.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -61,7 +61,7 @@ tr:target, .card:target { outline: 2px solid var(--mark); }
 img { image-rendering: pixelated; background: repeating-conic-gradient(#bbb 0 25%, #fff 0 50%) 0 0 / 16px 16px; }
 )";
 
-// A unit that an axis counts in: the largest in which its small numbers are not below a half.
+// A unit of an axis: the largest one in which the least value is at least 0.5.
 struct Unit {
   double size;
   const char* name;
@@ -77,11 +77,11 @@ Unit UnitFor(const Unit (&units)[N], double least) {
   return units[N - 1];
 }
 
-// A point, and what the page calls it: its rank by error.
+// A point and its label in the page, which is its rank by error.
 struct Ranked {
   const ReportPoint* point;
   std::string number;
-  bool asked;  // it has the settings asked for
+  bool asked;  // whether it has the requested settings
 };
 
 double SortKey(double value) { return std::isnan(value) ? std::numeric_limits<double>::infinity() : value; }
@@ -96,7 +96,7 @@ std::vector<Ranked> RankedByError(const ErrorReport& report) {
   return ranked;
 }
 
-// Whether approximations have their default values in the settings asked for. Other options do not make a point.
+// Whether all approximations have their default values in the requested settings. Points differ in no other options.
 bool AskedForDefaults(const ErrorReport& report) {
   const std::span<const RequestOption> options = RequestOptions();
   return std::all_of(options.begin(), options.end(), [&](const RequestOption& option) {
@@ -151,7 +151,7 @@ std::string ReferenceText(const ErrorReport& report) {
   return html + "</ul>\n";
 }
 
-// What a diagram has on its error axis.
+// The measure on a diagram's error axis.
 struct Measure {
   const char* name;
   const char* y_title;
@@ -161,7 +161,7 @@ constexpr Measure kRelative = {"Error", "error: relative RMSE, linear light", &F
 constexpr Measure kFlip = {"FLIP", "mean FLIP of the encoded images", &FilmError::flip};
 constexpr Measure kLargest = {"Largest difference", "largest difference, linear light", &FilmError::largest};
 
-// Everything that all diagrams show alike; x is left open.
+// The parts that all diagrams of a measure share. The caller sets x.
 Diagram DiagramOf(const ErrorReport& report, const std::vector<Ranked>& ranked, const Measure& measure) {
   Diagram diagram;
   diagram.y_title = measure.y_title;
@@ -192,7 +192,7 @@ std::string Captioned(const Diagram& diagram, const std::string& caption) {
   return html + "</figcaption>\n</figure>\n";
 }
 
-// Marks the points that no other one beats in both directions.
+// Marks the Pareto front: the points that no other point dominates in x and error.
 void MarkFront(std::vector<DiagramPoint>& points) {
   for (DiagramPoint& point : points) {
     point.front = std::none_of(points.begin(), points.end(), [&](const DiagramPoint& other) {
@@ -313,7 +313,7 @@ std::string Rounding(const ErrorReport& report) {
          Cell(ErrorWords(report.reference.relative_error)) + Cell("") + Cell("") + "</tr>\n</tbody>\n</table></div>\n";
 }
 
-// Of the relative RMSE, where it has some.
+// The standard error of the relative RMSE, if it is above 0.
 std::string Uncertainty(const FilmError& error) {
   return error.standard_error > 0.0 ? " ± " + ErrorWords(error.standard_error) : std::string();
 }

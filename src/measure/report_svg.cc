@@ -15,7 +15,7 @@ constexpr double kLeft = 72.0, kRight = 546.0, kTop = 12.0, kBottom = 370.0;
 
 bool OnLogAxis(double value) { return std::isfinite(value) && value > 0.0; }
 
-// A hundredth of a pixel is finer than anybody sees.
+// A position, rounded to an invisible hundredth of a pixel to keep the text short.
 std::string Place(double at) { return ShortNumber(std::round(at * 100.0) / 100.0); }
 
 std::string Attribute(const char* name, double at) { return std::string(" ") + name + "=\"" + Place(at) + "\""; }
@@ -31,7 +31,7 @@ std::string Text(const std::string& kind, double x, double y, const char* anchor
          more + ">" + Escaped(text) + "</text>\n";
 }
 
-// "0.02", or "2·10⁻⁵" on an axis where plain numbers would be long.
+// "0.02", or "2·10⁻⁵" on an axis whose plain numbers would be long.
 std::string TickLabel(double value, bool powers) {
   if (!powers) return ShortNumber(value);
   const int exponent = int(std::floor(std::log10(value) + 1e-9));
@@ -65,7 +65,7 @@ std::string Grid(const LogAxis& x, const LogAxis& y) {
   return svg;
 }
 
-// Names stand at the left, where points have more error than most levels; further right where another name is near.
+// Names are at the left, where points lie above most levels, or further right if they would overlap another name.
 std::string Levels(const std::vector<ErrorLevel>& levels, const LogAxis& y) {
   std::string svg;
   std::vector<double> lines;
@@ -131,7 +131,7 @@ std::string Dot(const DiagramPoint& point, const LogAxis& x, const LogAxis& y) {
   return svg;
 }
 
-// The numbers of points on the front, those first that come first; none where it would write over another.
+// The labels of points on the front, in the order of `points`; those that would overlap an earlier one are omitted.
 std::string Numbers(const std::vector<const DiagramPoint*>& points, const LogAxis& x, const LogAxis& y) {
   std::string svg;
   std::vector<const DiagramPoint*> written;
@@ -177,7 +177,7 @@ LogAxis AxisOver(std::span<const double> values, double from, double to) {
   }
   if (low > high) low = -1.0, high = 0.0;  // nothing to show: any axis will do
   const double margin = std::max(0.06 * (high - low), 0.5 * (std::log10(4.0) - (high - low)));
-  // Within what a double can hold as a normal number.
+  // Within the range of normal doubles.
   return {std::pow(10.0, std::max(low - margin, -307.0)), std::pow(10.0, std::min(high + margin, 308.0)), from, to};
 }
 

@@ -1,4 +1,4 @@
-// The report for programs: JSON, which can be read back, and CSV for spreadsheets and plots.
+// The report as JSON, which can be read back, and as CSV for spreadsheets and plots.
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -26,7 +26,7 @@ Json ErrorAsJson(const FilmError& error) {
           {"standard_error", error.standard_error}};
 }
 
-// A value of the file and where it stands.
+// A value of the file and its JSON pointer.
 struct Value {
   const Json& json;
   Json::json_pointer pointer;
@@ -54,7 +54,7 @@ struct Value {
     Expect(json.is_boolean(), "true or false");
     to = json.get<bool>();
   }
-  // Errors, times: never negative. null stands for what is no finite number.
+  // Reads an error or a time, which is never negative. null stands for values that are not finite.
   void Read(double& to) const {
     Expect(json.is_number() || json.is_null(), "number");
     to = json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
@@ -112,7 +112,7 @@ struct Value {
   }
 };
 
-// RFC 4180, section 2: fields that hold a comma, a quote or a line break stand in quotes, quotes in them twice.
+// RFC 4180, section 2: fields with a comma, a quote or a line break are quoted, and quotes in them are doubled.
 std::string CsvField(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string quoted = "\"";
@@ -120,7 +120,7 @@ std::string CsvField(const std::string& text) {
   return quoted + "\"";
 }
 
-// The shortest text that reads back as the same number; empty for what is not finite.
+// The shortest text that reads back as the same number; empty if it is not finite.
 std::string CsvNumber(double value) {
   if (!std::isfinite(value)) return {};
   std::array<char, 32> text;
@@ -207,7 +207,7 @@ ErrorReport ReportFromJson(const std::string& json, const std::string& name) {
   const Value reference = root["reference"];
   reference["samples"].Read(report.reference.samples);
   reference["batches"].Read(report.reference.batches);
-  // Reports had whole references once, and did not say so.
+  // Older reports have no such key; their references always cover the whole image.
   report.reference.pixels = std::size_t(report.width) * std::size_t(report.height);
   if (reference.Has("pixels")) reference["pixels"].Read(report.reference.pixels);
   reference["seconds"].Read(report.reference.seconds);

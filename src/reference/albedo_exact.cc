@@ -13,7 +13,7 @@ namespace {
 constexpr double kPiDouble = 3.14159265358979324;
 constexpr double kFirstLog = -3.102;  // below the logarithm of the smallest perceptual roughness, 0.045
 
-// Gauss and Legendre's rule on [0, 1].
+// Gauss-Legendre quadrature on [0, 1].
 template <int kCount>
 struct GaussRule {
   std::array<double, kCount> x, weight;
@@ -21,7 +21,7 @@ struct GaussRule {
   GaussRule() {
     for (int i = 0; i < kCount; ++i) {
       double root = Cos(kPiDouble * (i + 0.75) / (kCount + 0.5)), slope = 1.0;
-      for (int step = 0; step < 8; ++step) {  // Newton's, from a guess that is right to three digits
+      for (int step = 0; step < 8; ++step) {  // Newton steps from an estimate that is accurate to three digits
         double before = 1.0, value = root;
         for (int n = 2; n <= kCount; ++n) {
           const double next = ((2 * n - 1) * root * value - (n - 1) * before) / n;
@@ -80,7 +80,7 @@ struct Circle {
   }
 };
 
-// Where the pieces of the light's polar angle meet, ascending from 0 to pi / 2.
+// The ends of the intervals for integrating over the light's polar angle, ascending from 0 to pi / 2.
 std::vector<double> Pieces(double polar_v, double n_dot_v, double alpha) {
   const double right = 0.5 * kPiDouble;
   std::vector<double> ends = {0.0, right};
@@ -92,7 +92,7 @@ std::vector<double> Pieces(double polar_v, double n_dot_v, double alpha) {
     add(polar_v - d);
     add(polar_v + d);
   }
-  // Masking changes where the light's height is like alpha, or like the view's.
+  // Masking changes where the cosine of the light's polar angle is near alpha or near n_dot_v.
   for (double d = std::clamp(n_dot_v, 1e-10, alpha); d < right; d *= 4.0) add(right - d);
   std::sort(ends.begin(), ends.end());
   return ends;
@@ -129,7 +129,7 @@ ExactAlbedo IntegrateAlbedo(double n_dot_v, double alpha) {
 
 namespace {
 
-// The values of Chebyshev's polynomials at x in [-1, 1].
+// The values of the Chebyshev polynomials at x in [-1, 1].
 template <int kCount>
 std::array<double, kCount> ChebyshevAt(double x) {
   std::array<double, kCount> t;
@@ -184,7 +184,7 @@ AlbedoRow AlbedoSurface::Row(double perceptual_roughness) const {
 
 AlbedoSurface::AlbedoSurface() {
   constexpr int kColumns = AlbedoRow::kPanels, kOrder = AlbedoRow::kNodes;
-  // Rows at the nodes over roughness.
+  // First, a row for each node over roughness.
   std::vector<AlbedoRow> rows(kPanels * kNodes);
   ParallelFor(rows.size() * kColumns, 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
@@ -204,7 +204,7 @@ AlbedoSurface::AlbedoSurface() {
       }
     }
   });
-  // Their averages: with u the fourth root of mu, mu d mu = 4 u^7 du. The integrand is a polynomial of degree 17.
+  // Then their averages: with u the fourth root of mu, mu d mu = 4 u^7 du. The integrand is a polynomial of degree 17.
   for (AlbedoRow& row : rows) {
     row.average_ = {};
     for (int column = 0; column < kColumns; ++column) {
@@ -217,7 +217,7 @@ AlbedoSurface::AlbedoSurface() {
       }
     }
   }
-  // And polynomials over roughness through them.
+  // Last, the polynomials over roughness that interpolate the rows.
   coefficients_.resize(rows.size());
   for (int panel = 0; panel < kPanels; ++panel) {
     for (int i = 0; i < kNodes; ++i) {

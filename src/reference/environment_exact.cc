@@ -17,14 +17,14 @@ constexpr double kPiDouble = 3.14159265358979324;
 
 double Mix(double a, double b, double t) { return a + (b - a) * t; }
 
-// A number in [0, 1] whose density grows linearly from `first` to `last`.
+// A sample in [0, 1] whose density is proportional to the linear function from `first` to `last`.
 double SampleLinear(double first, double last, double random) {
   const double sum = first + last;
   if (!(sum > 0.0)) return random;
   return std::min(random * sum / (first + std::sqrt(Mix(first * first, last * last, random))), 1.0);
 }
 
-// The first entry above `value`, and how far `value` lies between it and the one before.
+// The first entry above `value`, and the position of `value` between the previous entry and this one, in [0, 1].
 struct Found {
   int index;
   double fraction;
@@ -43,7 +43,7 @@ ExactEnvironment::ExactEnvironment(const EnvironmentSettings& settings)
   const auto image = is_studio ? nullptr : ImageOf(settings);
   if (!is_studio) CheckImage(*image, "environment");
   const std::size_t pixels = is_studio ? std::size_t(kStudioWidth) * kStudioHeight : image->PixelCount();
-  held_ = MemoryLease(pixels, 2 * 3 * sizeof(float) + sizeof(double), "the environment");  // and a linear copy
+  held_ = MemoryLease(pixels, 2 * 3 * sizeof(float) + sizeof(double), "the environment");  // includes a linear copy
   const Image linear = ToLinearRgb32F(is_studio ? StudioImage(kStudioWidth, kStudioHeight) : *image);
   width_ = linear.width;
   height_ = linear.height;
@@ -83,7 +83,7 @@ glm::dvec3 ExactEnvironment::ToWorld(const glm::dvec3& d) const {
   return {cosine_ * d.x + sine_ * d.z, d.y, cosine_ * d.z - sine_ * d.x};
 }
 
-// `x` and `y` in [0, 1]^2 of the patch. The direction is left to the caller.
+// `x` and `y`: position in the patch, in [0, 1]^2. The caller sets the direction.
 ExactEnvironment::Light ExactEnvironment::Read(int band, int column, double x, double y, double sine_of_polar) const {
   const Patch patch = PatchAt(band, column);
   Light light;
@@ -122,7 +122,7 @@ ExactEnvironment::Light ExactEnvironment::Sample(const glm::dvec2& random) const
   const double y = SampleLinear(corner[0] + corner[1], corner[2] + corner[3], band.fraction);
   const double x = SampleLinear(Mix(corner[0], corner[2], y), Mix(corner[1], corner[3], y), column.fraction);
   const double up = Cos(kPiDouble * (BandTop(band.index) + BandHeight(band.index) * y + 0.5) / height_);
-  const double turn = (column.index + x + 0.5) / width_ - 0.5;  // of the azimuth, in whole turns
+  const double turn = (column.index + x + 0.5) / width_ - 0.5;  // the azimuth in full turns
   const double around = std::sqrt(std::max(1.0 - up * up, 0.0)), cosine = Cos(2.0 * kPiDouble * turn);
   const double sine = std::copysign(std::sqrt(std::max(1.0 - cosine * cosine, 0.0)), turn > 0.5 ? -1.0 : turn);
   Light light = Read(band.index, column.index, x, y, around);

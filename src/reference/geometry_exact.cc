@@ -61,7 +61,7 @@ glm::dvec3 ExactGeometry::EyeRelative(const Placed& placed, std::uint32_t vertex
 
 void ExactGeometry::Charge(std::size_t bytes) {
   constexpr std::size_t kAtOnce = 1 << 20;
-  needed_ += 2 * bytes;  // vectors that grow have room for twice of what is in them
+  needed_ += 2 * bytes;  // growing vectors reserve up to twice their size
   if (needed_ <= charged_) return;
   const std::size_t more = std::max(kAtOnce, needed_ - charged_);
   held_.emplace_back(more, 1, "the reference's lists of triangles");
@@ -70,7 +70,7 @@ void ExactGeometry::Charge(std::size_t bytes) {
 
 // `low` and `high`: bounds in pixels.
 void ExactGeometry::Add(Shape& shape, const glm::dvec2& low, const glm::dvec2& high) {
-  constexpr double kMargin = 0.01;  // more than rounding
+  constexpr double kMargin = 0.01;  // larger than rounding errors
   if (!(high.x > -kMargin && high.y > -kMargin && low.x < view_.width + kMargin && low.y < view_.height + kMargin)) {
     return;
   }
@@ -111,7 +111,7 @@ void ExactGeometry::AddTriangle(Shape& shape, bool double_sided) {
 
 // The rectangle one pixel wide around the line (Vulkan 1.3 specification, "Rectangular Line Segments").
 void ExactGeometry::AddLine(Shape& shape) {
-  // Cut by the near and far planes.
+  // Clip the line by the near and far planes.
   double first = 0.0, last = 1.0;
   const double from = shape.distance[0], along = shape.distance[1] - from;
   for (const auto& [bound, sign] : {std::pair(view_.near_distance, 1.0), std::pair(view_.far_distance, -1.0)}) {
@@ -126,7 +126,7 @@ void ExactGeometry::AddLine(Shape& shape) {
   wide.from_depth = depth(first);
   wide.to_depth = depth(last);
   if (!(glm::length(wide.to - wide.from) > 0.0)) return;
-  // The third vertex of the interpolation stands for the line's width: a direction across it.
+  // The third vertex for the interpolation is a direction across the line.
   const glm::dvec3 line = glm::cross(shape.screen[0], shape.screen[1]);
   shape.screen[2] = {line.x, line.y, 0.0};
   shape.wide = std::int32_t(wide_.size());
@@ -134,7 +134,7 @@ void ExactGeometry::AddLine(Shape& shape) {
   Add(shape, glm::min(wide.from, wide.to) - 0.5, glm::max(wide.from, wide.to) + 0.5);
 }
 
-// The square of one pixel around the point, if that is in the image itself.
+// The square of one pixel around the point, if the point itself is in the image.
 void ExactGeometry::AddPoint(Shape& shape) {
   if (shape.distance[0] < view_.near_distance || shape.distance[0] > view_.far_distance) return;
   const glm::dvec2 place = view_.PlaceOf(shape.screen[0]);
@@ -155,8 +155,7 @@ void ExactGeometry::CandidatesOf(int x, int y, std::vector<std::uint32_t>& candi
 }
 
 // The weights are proportional to those of the inverse of the matrix of the vertices (Olano and Greer, 1997, Triangle
-// Scan Conversion using 2D Homogeneous Coordinates). Negation is exact, so an edge means the same to both of its
-// triangles.
+// Scan Conversion using 2D Homogeneous Coordinates). Negation is exact, so both triangles of an edge agree about it.
 bool ExactGeometry::HitTriangle(const Shape& shape, const glm::dvec3& screen, Hit& hit) const {
   const glm::dvec3* v = shape.screen;
   const double side = shape.is_back != placed_[shape.drawable].mirrored ? -1.0 : 1.0;

@@ -54,7 +54,7 @@ void CheckSettings(const RenderSettings& settings, const ReferenceSettings& refe
   }
 }
 
-// Whose tangents is a choice of approximation.
+// The source of tangents is an approximation setting; the reference always uses those of the file if it has them.
 PoseSettings PoseForReference(const RenderSettings& settings) {
   PoseSettings pose = PoseOf(settings);
   pose.generate_tangents = false;
@@ -258,7 +258,7 @@ class ReferenceRun::Work {
   // At least this many blocks that are not black are rendered in any case, as long as no more than that are black.
   static constexpr std::size_t kFewestLitBlocks = 16, kFewestBlocks = 128;
   static constexpr int kFewestForTarget = 4;            // batches
-  static constexpr double kSecondsBetweenWords = 0.25;  // of progress
+  static constexpr double kSecondsBetweenWords = 0.25;  // between calls of progress
 
   double Elapsed() const { return reference_.clock() - start_; }
 

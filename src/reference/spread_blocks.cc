@@ -10,8 +10,8 @@ namespace facet {
 std::vector<PixelBlock> SpreadBlocks(int image_width, int image_height, std::uint64_t seed) {
   const int columns = (image_width + kBlockSide - 1) / kBlockSide;
   const int rows = (image_height + kBlockSide - 1) / kBlockSide;
-  // The first side * side points lie in as many different cells of a square; those within the image are used.
-  // That favours some of them, where it has not all: so all are moved by as much, and come in again at the other side.
+  // The first side * side points lie in different cells of a square, of which those in the image are used. This favours
+  // some cells if the image does not fill the square, so all are shifted by a random offset with wraparound.
   const std::uint32_t side = std::bit_ceil(std::uint32_t(std::max(columns, rows)));
   const std::uint64_t random = MixBits(MixBits(seed) ^ 0xB10C5u);
   const SampleSequence sequence(random);

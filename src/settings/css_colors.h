@@ -1,4 +1,4 @@
-// The colours that have names.
+// The named colours of CSS.
 #pragma once
 
 #include <cstdint>

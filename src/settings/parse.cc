@@ -21,7 +21,7 @@ namespace {
 
 // The whole of `text` as a finite number, or none.
 std::optional<double> WholeNumber(std::string_view text) {
-  if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);  // from_chars takes no plus sign
+  if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);  // from_chars accepts no plus sign
   double value = 0.0;
   const char* end = text.data() + text.size();
   const auto [stop, error] = std::from_chars(text.data(), end, value);
@@ -54,7 +54,7 @@ bool DigitsOnly(std::string_view text) {
   return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
-// "0 'Front', 1 'Top' and 7 more": what a user can choose from.
+// Lists the available choices for messages: "0 'Front', 1 'Top' and 7 more".
 std::string Listing(const std::vector<std::string>& names) {
   constexpr std::size_t kMost = 12;
   std::string list;

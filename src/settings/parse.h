@@ -1,6 +1,6 @@
-// Text of the command line and of manifests into values. Nothing here depends on the locale, and nothing is half
-// accepted: trailing characters, NaN and infinities are refused. Every function throws Error(InvalidUsage) naming
-// `option`, the text and what would have been accepted.
+// Parses text of the command line and of manifests. Results do not depend on the locale, and trailing characters, NaN
+// and infinities are refused. Every function throws Error(InvalidUsage), which names `option`, the text and what is
+// accepted.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ struct Range {
 // A finite decimal number in `range`; a leading '+' is allowed.
 double ParseNumber(std::string_view option, std::string_view text, Range range);
 
-// A duration in seconds: a number, and one of the units ms, s (also where none stands), min and h. `range`: seconds.
+// A duration in seconds: a number and one of the units ms, s (the default), min and h. `range`: seconds.
 double ParseDuration(std::string_view option, std::string_view text, Range range);
 
 // An amount of memory in bytes, from 1 MiB to 1024 TiB: a number and one of the units MiB, GiB and TiB.
@@ -37,13 +37,13 @@ struct Size {
   int height;
 };
 
-// WIDTHxHEIGHT in pixels, each 1 to 16384; one number is both.
+// WIDTHxHEIGHT in pixels, each 1 to 16384. A single number is both.
 Size ParseSize(std::string_view option, std::string_view text);
 
 // X,Y,Z: three finite numbers.
 glm::dvec3 ParseVec3(std::string_view option, std::string_view text);
 
-// THETA,PHI[,RADIUS]: degrees, and metres; a radius of 0 (or none) frames the scene.
+// THETA,PHI[,RADIUS]: angles in degrees and a radius in metres. A radius of 0 (or none) frames the scene.
 struct Orbit {
   double theta_degrees;
   double phi_degrees;
@@ -51,24 +51,24 @@ struct Orbit {
 };
 Orbit ParseOrbit(std::string_view option, std::string_view text);
 
-// Of ASCII's letters.
+// Converts ASCII letters only.
 std::string LowerCase(std::string_view text);
 
-// #rgb, #rrggbb or a colour's name in CSS, in letters of any case; sRGB in [0, 1].
+// #rgb, #rrggbb or the name of a CSS colour, in any letter case. Returns sRGB in [0, 1].
 glm::vec3 ParseColor(std::string_view option, std::string_view text);
 
-// One of `choices`, by index; letter case counts.
+// The index of one of `choices`. Letter case matters.
 int ParseChoice(std::string_view option, std::string_view text, const std::vector<std::string_view>& choices);
 
-// Some of `choices` with commas between them, by index; "none" is none of them.
+// The indices of some of `choices`, separated by commas. "none" is the empty list.
 std::vector<int> ParseChoices(std::string_view option, std::string_view text,
                               const std::vector<std::string_view>& choices);
 
-// Names of planes with commas between them, each once; "none" is none of them.
+// Names of planes separated by commas, each at most once. "none" is the empty list.
 std::vector<PlaneKind> ParsePlanes(std::string_view option, std::string_view text);
 
-// The index of what `text` picks out of `names`: a number of digits only is always an index, anything else a name.
-// `kind` is the singular word for messages, such as "camera"; the message lists what there is.
+// The index of the element of `names` that `text` selects. Text of digits only is always an index, any other a name.
+// `kind` is the singular word for messages, such as "camera". The message lists the available names.
 int Choose(std::string_view option, std::string_view kind, const std::string& text,
            const std::vector<std::string>& names);
 

@@ -26,7 +26,7 @@ constexpr std::string_view kOutput = "Output", kCamera = "Camera", kScene = "Sce
 
 using Text = std::string_view;
 
-// Words with commas between them, or "none".
+// Words separated by commas, or "none".
 FeatureSet ParseFeatures(Text where, Text text) {
   std::vector<Text> words;
   for (const FeatureWord& known : kFeatureWords) words.push_back(known.word);
