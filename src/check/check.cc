@@ -383,8 +383,7 @@ CheckReport CheckManifest(const std::filesystem::path& path, const CheckOptions&
   const std::vector<std::size_t> selected = Selected(manifest, options.only);
   report.entries.resize(selected.size());
   std::vector<std::optional<NewExpectation>> updates(selected.size());
-  // By default, threads whose entry is finished help with others. With --threads, each entry has a fixed number of
-  // them.
+  // By default, threads that finish an entry help with others. With --threads, each entry has a fixed number of them.
   const int most = static_cast<int>(std::min<std::size_t>(selected.size(), 16384));
   const int beside = options.threads == 0 ? 0 : std::max(1, std::min(options.threads, most));
   const int each = options.threads == 0 ? 0 : options.threads / beside;
@@ -400,8 +399,7 @@ CheckReport CheckManifest(const std::filesystem::path& path, const CheckOptions&
     CheckOptions share = options;
     share.load.memory_limit = pictures.limit() / std::min<std::uint64_t>(CurrentThreadCount(), selected.size());
     ParallelFor(selected.size(), 1, [&](std::size_t i, std::size_t) { run(i, share); });
-    // Entries that ran out of memory are run again alone with the whole limit, so that results do not depend on
-    // threads.
+    // Entries that ran out of memory run again, alone with the whole limit: results do not depend on threads.
     for (std::size_t i = 0; i < selected.size(); ++i) {
       if (refused[i]) run(i, options);
     }

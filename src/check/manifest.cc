@@ -169,9 +169,7 @@ class KeyGuard : public nlohmann::json_sax<Json> {
   bool binary(binary_t&) override { return true; }
   bool start_array(std::size_t) override { return true; }
   bool end_array() override { return true; }
-  bool parse_error(std::size_t, const std::string&, const Json::exception&) override {
-    return false;
-  }  // Json::parse() reports it
+  bool parse_error(std::size_t, const std::string&, const Json::exception&) override { return false; }  // by Parse()
 
  private:
   void Fail(const std::string& message) const { throw Error(ErrorCode::InvalidInput, message, file_); }

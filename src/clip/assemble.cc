@@ -27,10 +27,7 @@ class Assembler {
  public:
   Assembler(const FrameView& view, const FrameDrawable& drawable, const VertexBuffer& vertices, int samples,
             TriangleChunk& chunk)
-      : view_(view),
-        drawable_(drawable),
-        vertices_(vertices.data() + drawable.vertex_base),
-        chunk_(chunk),
+      : view_(view), drawable_(drawable), vertices_(vertices.data() + drawable.vertex_base), chunk_(chunk),
         samples_(samples) {}
 
   // Small triangles are set up in groups. A group that has other triangles is assembled one by one.
@@ -172,8 +169,8 @@ class Assembler {
   }
 
   void Emit(Corner a, Corner b, Corner c, std::uint32_t primitive, ScreenTriangleKind kind, bool clipped = false) {
-    std::int64_t area =
-        std::int64_t{b.x_fx8 - a.x_fx8} * (c.y_fx8 - a.y_fx8) - std::int64_t{c.x_fx8 - a.x_fx8} * (b.y_fx8 - a.y_fx8);
+    std::int64_t area = std::int64_t{b.x_fx8 - a.x_fx8} * (c.y_fx8 - a.y_fx8) -
+                        std::int64_t{c.x_fx8 - a.x_fx8} * (b.y_fx8 - a.y_fx8);
     // glTF's front faces run counter-clockwise; with y down that is a negative area.
     const bool back = kind == ScreenTriangleKind::Triangle && (area > 0) != drawable_.mirrored;
     if (area == 0 || (back && !drawable_.double_sided)) return void(++chunk_.culled);
@@ -223,7 +220,9 @@ void AssembleChunk(const FrameView& view, const FrameDrawable& drawable, const V
     case PrimitiveClass::Lines:
       for (std::uint32_t i = chunk.first_primitive; i < end; ++i) assembler.Line(i);
       break;
-    case PrimitiveClass::Triangles: assembler.Triangles(); break;
+    case PrimitiveClass::Triangles:
+      assembler.Triangles();
+      break;
   }
 }
 

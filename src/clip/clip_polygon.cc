@@ -22,9 +22,12 @@ int MakePlanes(const FrameView& view, std::int32_t outcodes, Plane* planes) {
     return view.perspective ? Plane{bit, {-sx, -sy, bound}, 0.0} : Plane{bit, {-sx, -sy, 0.0}, bound};
   };
   const Plane all[] = {
-      {kOutNear, {0.0, 0.0, 1.0}, -view.near_distance}, {kOutFar, {0.0, 0.0, -1.0}, view.far_distance},
-      guard(kOutGuardLeft, -1.0, 0.0, g - cx),          guard(kOutGuardRight, 1.0, 0.0, g + cx),
-      guard(kOutGuardTop, 0.0, -1.0, g - cy),           guard(kOutGuardBottom, 0.0, 1.0, g + cy),
+      {kOutNear, {0.0, 0.0, 1.0}, -view.near_distance},
+      {kOutFar, {0.0, 0.0, -1.0}, view.far_distance},
+      guard(kOutGuardLeft, -1.0, 0.0, g - cx),
+      guard(kOutGuardRight, 1.0, 0.0, g + cx),
+      guard(kOutGuardTop, 0.0, -1.0, g - cy),
+      guard(kOutGuardBottom, 0.0, 1.0, g + cy),
   };
   int count = 0;
   for (const Plane& plane : all) {

@@ -76,10 +76,8 @@ HWY_INLINE Int CoveredSamples(const Int (&x_fx8)[3], const Int (&y_fx8)[3], Int 
 struct BoxLanes {
   Int low_x, high_x, low_y, high_y;
   HWY_INLINE BoxLanes(const Int (&x)[3], const Int (&y)[3])
-      : low_x(Min(Min(x[0], x[1]), x[2])),
-        high_x(Max(Max(x[0], x[1]), x[2])),
-        low_y(Min(Min(y[0], y[1]), y[2])),
-        high_y(Max(Max(y[0], y[1]), y[2])) {}
+      : low_x(Min(Min(x[0], x[1]), x[2])), high_x(Max(Max(x[0], x[1]), x[2])),
+        low_y(Min(Min(y[0], y[1]), y[2])), high_y(Max(Max(y[0], y[1]), y[2])) {}
 };
 
 // The SampleCoverage of the lanes in `asked`; none for the others.
@@ -112,9 +110,12 @@ HWY_INLINE void DepthPlanes(const std::int32_t* x1, const std::int32_t* y1, cons
                             double* depth_dx, double* depth_dy) {
   using D = hn::ScalableTag<double>;
   const D d;
-  const auto real = [&](const std::int32_t* p)
-                        HWY_ATTR { return hn::PromoteTo(d, hn::LoadU(hn::Rebind<std::int32_t, D>(), p)); };
-  const auto depths = [&](const float* p) HWY_ATTR { return hn::PromoteTo(d, hn::LoadU(hn::Rebind<float, D>(), p)); };
+  const auto real = [&](const std::int32_t* p) HWY_ATTR {
+    return hn::PromoteTo(d, hn::LoadU(hn::Rebind<std::int32_t, D>(), p));
+  };
+  const auto depths = [&](const float* p) HWY_ATTR {
+    return hn::PromoteTo(d, hn::LoadU(hn::Rebind<float, D>(), p));
+  };
   for (std::size_t k = 0; k < LaneCount(); k += hn::Lanes(d)) {
     const auto scale = hn::Div(hn::Set(d, double{kSubpixelScale}), real(area + k));
     const auto z0 = depths(depth[0] + k);

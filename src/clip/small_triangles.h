@@ -37,7 +37,7 @@ struct TriangleRun {
 };
 
 struct SmallTriangles {
-  std::uint32_t taken = 0;                 // how many triangles were processed, from the start of the run
+  std::uint32_t taken = 0;  // how many triangles were processed, from the start of the run
   std::uint32_t culled = 0, rejected = 0;  // how many of these were
 };
 

@@ -24,9 +24,9 @@ std::uint16_t LinearToSrgb16(float linear);
 // Tables for exact encoding in kernels. thresholds[k] is the smallest float whose nearest code is at least k;
 // thresholds[0] = 0, and an infinity follows the last.
 struct SrgbTables {
-  static constexpr int kBucketShift = 16;                             // of a float's bits: 128 buckets an octave
+  static constexpr int kBucketShift = 16;                 // of a float's bits: 128 buckets an octave
   static constexpr std::int32_t kInBucket = (1 << kBucketShift) - 1;  // the bits that tell a bucket's floats apart
-  static constexpr std::int32_t kFirstBits = 0x39000000;              // 2^-13; all below has code 0
+  static constexpr std::int32_t kFirstBits = 0x39000000;  // 2^-13; all below has code 0
   static constexpr int kBucketCount = (0x3F800000 - kFirstBits) >> kBucketShift;
   std::array<float, 257> thresholds8;
   // No bucket contains two thresholds. ramps8[bucket] is the code at the start of the bucket times 2^16, plus an

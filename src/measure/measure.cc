@@ -17,7 +17,7 @@
 namespace facet {
 namespace {
 
-// A line like "VmHWM:    1234 kB" of this process' status, in bytes; 0 where there is none.
+// A line like "VmHWM:    1234 kB" of this process's status in bytes, or 0 if it is missing.
 std::size_t StatusBytes(const std::string& key) {
   std::ifstream status("/proc/self/status");
   for (std::string word; status >> word;) {

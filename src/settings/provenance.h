@@ -17,7 +17,7 @@ struct Provenance {
   std::string scene;                            // the file's name, without its folder
   std::map<std::string, std::string> settings;  // as SpelledOut() gives them
   Digest film;                                  // HashFilm()
-  Digest pixels;                                // HashImage() of StoredForm() of the picture
+  Digest pixels;                                // HashImage() of StoredForm() of the image
 };
 
 // Keyword and value pairs for the text in a PNG or EXR file: "Software", "facet:scene", "facet:settings" (a JSON

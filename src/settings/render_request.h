@@ -36,7 +36,7 @@ struct RequestOption {
   std::string_view name;     // without dashes
   std::string_view group;    // of the help page
   std::string_view value;    // placeholder of the value there
-  std::string_view initial;  // the text of the default; empty: no text stands for it
+  std::string_view initial;  // the text of the default; empty: it has no text
   std::string_view description;
   // `where`: the option's name in messages. Throws Error(InvalidUsage).
   void (*read)(RenderRequest& request, std::string_view where, std::string_view text);
