@@ -169,7 +169,8 @@ class KeyGuard : public nlohmann::json_sax<Json> {
   bool binary(binary_t&) override { return true; }
   bool start_array(std::size_t) override { return true; }
   bool end_array() override { return true; }
-  bool parse_error(std::size_t, const std::string&, const Json::exception&) override { return false; }  // by Parse()
+  // Parse() reports syntax errors, with line and column.
+  bool parse_error(std::size_t, const std::string&, const Json::exception&) override { return false; }
 
  private:
   void Fail(const std::string& message) const { throw Error(ErrorCode::InvalidInput, message, file_); }
