@@ -39,14 +39,6 @@ inline constexpr PlaneInfo kPlanes[] = {
 
 constexpr const PlaneInfo& InfoOf(PlaneKind kind) { return kPlanes[std::size_t(kind)]; }
 
-// The plane with this name; null if there is none.
-constexpr const PlaneInfo* FindPlane(std::string_view name) {
-  for (const PlaneInfo& info : kPlanes) {
-    if (info.name == name) return &info;
-  }
-  return nullptr;
-}
-
 static_assert(
     [] {
       for (std::size_t i = 0; i < std::size(kPlanes); ++i) {

@@ -216,7 +216,8 @@ CLI::App& AddInfo(CLI::App& program, InfoOptions& options) {
 
 CLI::App& AddExplain(CLI::App& program, ExplainOptions& options) {
   CommandPage page(program, "explain", "Say what a frame uses, what is disabled, and what each feature costs",
-                   "IN [OPTIONS]", std::string("The options of render that decide over the image.\n\n") + kExitCodes);
+                   "IN [OPTIONS]",
+                   std::string("Takes the options of render that determine the image.\n\n") + kExitCodes);
   CLI::App& app = page.app();
   AddScene(app, options.input);
   AddRequest(app, options.request, options.load, options.strict);
@@ -228,7 +229,8 @@ CLI::App& AddExplain(CLI::App& program, ExplainOptions& options) {
 
 CLI::App& AddHash(CLI::App& program, HashOptions& options) {
   CommandPage page(program, "hash", "Print the SHA-256 of a scene's picture and of what it is made from",
-                   "IN [OPTIONS]", std::string("The options of render that decide over the image.\n\n") + kExitCodes);
+                   "IN [OPTIONS]",
+                   std::string("Takes the options of render that determine the image.\n\n") + kExitCodes);
   CLI::App& app = page.app();
   AddScene(app, options.input);
   AddRequest(app, options.request, options.load, options.strict);
@@ -322,7 +324,7 @@ CLI::App& AddCheck(CLI::App& program, CheckCommandOptions& options) {
 
 CLI::App& AddReport(CLI::App& program, ReportOptions& options) {
   CommandPage page(program, "report", "Measure what each approximation costs in error and time", "IN -o FILE [OPTIONS]",
-                   std::string("The other options are those of render that decide over the image.\n\n") + kExitCodes);
+                   std::string("The other options are those of render that determine the image.\n\n") + kExitCodes);
   CLI::App& app = page.app();
   AddScene(app, options.input);
   app.add_option_function<std::vector<std::string>>(

@@ -1,5 +1,6 @@
 #include "film/hash_film.h"
 
+#include <iterator>
 #include <span>
 #include <string>
 
@@ -45,6 +46,9 @@ Digest HashPlane(const Film& film, std::size_t plane) {
                 "ask for planes with RenderSettings::planes");
   }
   const auto& [kind, bytes] = film.planes[plane];
+  if (std::size_t(kind) >= std::size(kPlanes)) {
+    throw Error(ErrorCode::InvalidUsage, "its plane " + std::to_string(plane) + " has an unknown kind", "film");
+  }
   const PlaneInfo& info = InfoOf(kind);
   if (bytes.size() != film.pixels.size() * info.PixelBytes()) {
     throw Error(ErrorCode::InvalidUsage,

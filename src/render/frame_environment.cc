@@ -32,7 +32,7 @@ std::shared_ptr<const EnvironmentMap> FromSource(const EnvironmentSource& source
   std::uint64_t admitted = 0;
   if (auto kept = source.Find(options, [&](std::uint64_t bytes) { ChargePrepared(admitted = bytes, budget); }))
     return kept;
-  budget.Release(admitted, kPrepared);  // a cached map that is of no use takes no memory
+  budget.Release(admitted, kPrepared);  // a cached map that was read but is not usable has been freed
   const auto image = source.Decode();
   Charge(*image, options, budget);
   auto map = PrefilterEnvironment(*image, options);

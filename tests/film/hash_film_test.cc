@@ -54,6 +54,8 @@ TEST(HashPlane, IsTheDigestOfTheDocumentedBytes) {
   EXPECT_THROW(HashPlane(film, 2), Error);
   film.planes[1].bytes.pop_back();
   EXPECT_THROW(HashPlane(film, 1), Error);
+  film.planes[0].kind = PlaneKind(200);
+  EXPECT_THROW(HashPlane(film, 0), Error) << "an unknown kind";
 }
 
 TEST(HashImage, SeesThePixelsAndTheirKind) {

@@ -87,14 +87,5 @@ TEST(ResolvePlanes, OfAnEmptyTileAreNothingWhateverItsBuffersHold) {
   for (const float depth : planes[1].As<float>()) ASSERT_EQ(depth, std::numeric_limits<float>::infinity());
 }
 
-TEST(PlaneNames, FindTheirPlane) {
-  for (const PlaneInfo& info : kPlanes) {
-    EXPECT_EQ(FindPlane(info.name), &info);
-    EXPECT_EQ(InfoOf(info.kind).name, info.name);
-  }
-  EXPECT_EQ(FindPlane("colour"), nullptr);
-  EXPECT_EQ(FindPlane(""), nullptr);
-}
-
 }  // namespace
 }  // namespace facet
