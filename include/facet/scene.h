@@ -56,8 +56,9 @@ struct TextureRef {
 
 enum class AlphaMode : std::uint8_t { Opaque, Mask, Blend };
 
-// How a material turns its parameters into reflection. Unlit (KHR_materials_unlit) shows its base colour as it is.
-enum class ShadingModel : std::uint8_t { MetallicRoughness, Unlit };
+// How a material turns its parameters into reflection. SpecularGlossiness (KHR_materials_pbrSpecularGlossiness) states
+// diffuse and specular colours instead of metalness. Unlit (KHR_materials_unlit) shows its base colour as it is.
+enum class ShadingModel : std::uint8_t { MetallicRoughness, SpecularGlossiness, Unlit };
 
 struct Material {
   std::string name;
@@ -77,6 +78,55 @@ struct Material {
   float alpha_cutoff = 0.5f;  // 0 or more
   bool double_sided = false;
   ShadingModel model = ShadingModel::MetallicRoughness;
+
+  // KHR_materials_clearcoat: a clear layer over everything else. It has its own normal, by default the interpolated
+  // one.
+  float clearcoat_factor = 0.0f;            // [0, 1]
+  TextureRef clearcoat_texture;             // R
+  float clearcoat_roughness_factor = 0.0f;  // perceptual, [0, 1]
+  TextureRef clearcoat_roughness_texture;   // G
+  TextureRef clearcoat_normal_texture;      // tangent space, +Y up
+  float clearcoat_normal_scale = 1.0f;      // of any sign
+  // KHR_materials_sheen: fibres over the base.
+  glm::vec3 sheen_color_factor{0.0f};   // linear, [0, 1]
+  TextureRef sheen_color_texture;       // sRGB
+  float sheen_roughness_factor = 0.0f;  // perceptual, [0, 1]
+  TextureRef sheen_roughness_texture;   // A
+  // KHR_materials_specular: the reflection of the dielectric part.
+  float specular_factor = 1.0f;           // [0, 1]
+  TextureRef specular_texture;            // A
+  glm::vec3 specular_color_factor{1.0f};  // linear, 0 or more; times F0 it is clamped to 1
+  TextureRef specular_color_texture;      // sRGB
+  float ior = 1.5f;                       // KHR_materials_ior: 1 or more, or 0 for a Fresnel term of 1
+  // KHR_materials_transmission: light that passes through the surface.
+  float transmission_factor = 0.0f;  // [0, 1]
+  TextureRef transmission_texture;   // R
+  // KHR_materials_volume: what is behind the surface. A thickness of 0 means a thin wall.
+  float thickness_factor = 0.0f;  // of the volume, in units of the mesh, 0 or more
+  TextureRef thickness_texture;   // G
+  float attenuation_distance = std::numeric_limits<float>::infinity();  // metres, above 0
+  glm::vec3 attenuation_color{1.0f};  // of white light after that distance, linear, [0, 1]
+  float dispersion = 0.0f;            // KHR_materials_dispersion: 20 divided by the Abbe number, 0 or more
+  // KHR_materials_diffuse_transmission: light from behind, scattered.
+  float diffuse_transmission_factor = 0.0f;           // [0, 1]
+  TextureRef diffuse_transmission_texture;            // A
+  glm::vec3 diffuse_transmission_color_factor{1.0f};  // linear, [0, 1]
+  TextureRef diffuse_transmission_color_texture;      // sRGB
+  // KHR_materials_iridescence: a thin film on the base.
+  float iridescence_factor = 0.0f;               // [0, 1]
+  TextureRef iridescence_texture;                // R
+  float iridescence_ior = 1.3f;                  // of the film, 1 or more
+  float iridescence_thickness_minimum = 100.0f;  // nanometres, 0 or more: where the texture is 0
+  float iridescence_thickness_maximum = 400.0f;  // likewise, where it is 1, or where there is none
+  TextureRef iridescence_thickness_texture;      // G
+  // KHR_materials_anisotropy: a base whose highlights are stretched.
+  float anisotropy_strength = 0.0f;  // [0, 1]
+  float anisotropy_rotation = 0.0f;  // radians from the tangent, counter-clockwise in tangent space
+  TextureRef anisotropy_texture;     // RG direction, B strength
+  // KHR_materials_pbrSpecularGlossiness. Its diffuse colour is the base colour above.
+  glm::vec3 specular_glossiness_specular_factor{1.0f};  // linear, [0, 1]
+  float glossiness_factor = 1.0f;                       // 1 - perceptual roughness, [0, 1]
+  TextureRef specular_glossiness_texture;               // RGB specular, sRGB; A glossiness
 };
 
 // --- Geometry ------------------------------------------------------------------------------------------------------

@@ -98,6 +98,18 @@ enum class Feature : std::uint32_t {
   Blending = 1u << 9,   // disabled: BLEND is drawn as OPAQUE
   Skins = 1u << 10,     // disabled: meshes are placed by their nodes
   MorphTargets = 1u << 11,
+  // Layers and lobes of materials, with their textures.
+  Clearcoat = 1u << 12,
+  Sheen = 1u << 13,
+  Specular = 1u << 14,  // the factor and colour of KHR_materials_specular
+  Ior = 1u << 15,       // disabled: an index of refraction of 1.5
+  Transmission = 1u << 16,
+  Volume = 1u << 17,  // disabled: walls are thin
+  Dispersion = 1u << 18,
+  DiffuseTransmission = 1u << 19,
+  Iridescence = 1u << 20,
+  Anisotropy = 1u << 21,
+  SpecularGlossinessTexture = 1u << 22,
 };
 
 // The words for features in the option "without" and in the output of `facet explain`, in the order of the bits.
@@ -118,6 +130,17 @@ inline constexpr auto kFeatureWords = std::to_array<FeatureWord>({
     {Feature::Blending, "blending"},
     {Feature::Skins, "skins"},
     {Feature::MorphTargets, "morph-targets"},
+    {Feature::Clearcoat, "clearcoat"},
+    {Feature::Sheen, "sheen"},
+    {Feature::Specular, "specular"},
+    {Feature::Ior, "ior"},
+    {Feature::Transmission, "transmission"},
+    {Feature::Volume, "volume"},
+    {Feature::Dispersion, "dispersion"},
+    {Feature::DiffuseTransmission, "diffuse-transmission"},
+    {Feature::Iridescence, "iridescence"},
+    {Feature::Anisotropy, "anisotropy"},
+    {Feature::SpecularGlossinessTexture, "specular-glossiness-texture"},
 });
 inline constexpr int kFeatureCount = kFeatureWords.size();
 static_assert(std::ranges::all_of(kFeatureWords,

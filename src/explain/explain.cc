@@ -25,7 +25,7 @@ FeatureSet UsedFeatures(const FrameMaterial& material) {
   FeatureSet used;
   ForEachSlot(material.features, [&](Slot slot) { used.Add(InfoOf(slot).feature); });
   for (const FactorFeature& factor : kFactorFeatures) {
-    if (material.Has(factor.bit)) used.Add(InfoOf(factor.slot).feature);
+    if (material.Has(factor.bit)) used.Add(factor.feature);
   }
   if (material.Has(kAlphaTest)) used.Add(Feature::AlphaTest);
   if (material.Has(kAlphaBlend)) used.Add(Feature::Blending);

@@ -20,9 +20,14 @@ class MaterialReader {
   Material Read() {
     Material out;
     out.name = NameOf(object_, place_);
+    // The older model states its own base colour, and what stands in pbrMetallicRoughness is for other viewers.
+    const bool is_older = ExtensionOf(object_, "KHR_materials_pbrSpecularGlossiness", place_) != nullptr &&
+                          ExtensionOf(object_, "KHR_materials_unlit", place_) == nullptr;
     ForEachParameter([&](const auto& parameter) {
       auto& value = out.*parameter.member;
       const char* const name = parameter.gltf_group;
+      if (name != nullptr && (is_older ? name == std::string_view("pbrMetallicRoughness") : parameter.alternative))
+        return;
       if (name == nullptr) return ReadValue(object_, place_, parameter, value);
       if (const Json* group = Group(name)) ReadValue(*group, PlaceOf(name), parameter, value);
     });
@@ -46,6 +51,7 @@ class MaterialReader {
 
   // Clamps to the range, with a warning.
   static float Clamp(double value, ParameterRange range, const Place& where) {
+    if (value == double{range.exception}) return static_cast<float>(value);
     const double clamped = std::min(std::max(value, double{range.low}), double{range.high});
     if (clamped != value) where.Warn("a number outside of its range was clamped");
     return RoundToFiniteFloat(clamped);

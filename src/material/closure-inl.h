@@ -1,10 +1,17 @@
-// glTF 2.0's metallic-roughness material as a closure: the sum of its lobes, evaluated under any lighting.
+// glTF 2.0's material as a closure: the sum of its lobes, evaluated under any lighting. From the top:
 //
-// The model (Khronos, glTF 2.0 Specification, appendix B) is a specular lobe (lobes/specular-inl.h) over a diffuse one
-// (lobes/diffuse-inl.h). Both are reciprocal. A white base colour reflects all light at every roughness, metalness
-// (mixtures too: each part reflects all) and angle.
+//   clear coat               lobes/clearcoat-inl.h
+//   specular reflection      lobes/specular-inl.h, of microfacets (lobes/microfacets-inl.h, lobes/anisotropy-inl.h)
+//     with a thin film       lobes/iridescence-inl.h
+//   diffuse reflection       lobes/diffuse-inl.h
+//   diffuse transmission     lobes/diffuse_transmission-inl.h
 //
-// A lobe that the material does not have is skipped by a uniform branch (all lanes take the same side).
+// Each layer passes down exactly the share of light that it does not reflect towards the view. The core (Khronos, glTF
+// 2.0 Specification, appendix B) is reciprocal; a layer over it is not, as in the extensions' own texts. A white base
+// colour reflects all light at every roughness, metalness (mixtures too: each part reflects all) and angle.
+//
+// A lobe that the material does not have is skipped by a uniform branch (all lanes take the same side). The core is
+// compiled on its own, too (kCoreLobes), so that materials without layers do not even have the branches.
 //
 // Occlusion multiplies all light from the environment, including specular reflection, because a cavity sees less of its
 // surroundings in every direction. It does not affect punctual lights or emission (glTF 2.0, section 3.9.2).
@@ -17,12 +24,18 @@
 #endif
 
 #include "material/features.h"
+#include "material/lobes/anisotropy-inl.h"
+#include "material/lobes/clearcoat-inl.h"
 #include "material/lobes/diffuse-inl.h"
+#include "material/lobes/diffuse_transmission-inl.h"
+#include "material/lobes/iridescence-inl.h"
 #include "material/lobes/specular-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace facet {
 namespace HWY_NAMESPACE {
+
+inline constexpr MaterialFeatures kCoreLobes = kDiffuseLobe, kAllLobes = kDiffuseLobe | kLayerFeatures;
 
 // The inputs of the model at one point of a surface. Linear Rec. 709; world axes. Define one as `MaterialInputs<T>
 // in{};`: without the braces GCC calls a constructor that it generates for the baseline instruction set.
@@ -36,9 +49,17 @@ struct MaterialInputs {
   T occlusion{};           // 1 + strength * (texel - 1); 1 where there is none
   Vec3<T> emissive;        // radiance
   MaterialFeatures lobes = kDiffuseLobe;  // those that the material has besides the specular lobe
+  // Each of the following is read only if `lobes` has its bit.
+  Interface<T> dielectric;  // kSpecular or kIor
+  ClearcoatInputs<T> clearcoat;
+  FilmInputs<T> film;
+  AnisotropyInputs<T> anisotropy;
+  T transmission{};  // [0, 1]
+  DiffuseTransmissionInputs<T> diffuse_transmission;
 };
 
-// The material seen from one direction. A Lighting provides, to this and to the functions below:
+// The material seen from one direction. `kPossible`: the lobes that it may have; those of others cost nothing. A
+// Lighting provides, to this and to the functions below:
 //   int LightCount() const;
 //   LightSample<T> Sample(int light, Vec3<T> position) const;         // position relative to the eye
 //   bool HasEnvironment() const;
@@ -46,65 +67,115 @@ struct MaterialInputs {
 //   Vec3<T> Prefiltered(Vec3<T> direction, T perceptual_roughness) const;
 //   SpecularAlbedo<T> Dfg(T n_dot_v, T perceptual_roughness) const;
 //   SpecularAlbedo<T> DfgAverage(T perceptual_roughness) const;       // the same, averaged: 2 * integral of mu d mu
-template <class T>
+template <class T, MaterialFeatures kPossible = kAllLobes>
 struct Closure {
   SurfaceView<T> at;
   MaterialFeatures lobes;
+  Microfacets<T> microfacets;
+  AnisotropicMicrofacets<T> anisotropic;
   SpecularLobe<T> specular;
   DiffuseLobe<T> diffuse;
+  DiffuseTransmissionLobe<T> diffuse_transmission;
+  ClearcoatLobe<T> clearcoat;
 
   template <class Lighting>
-  HWY_INLINE Closure(const SurfaceView<T>& surface, const MaterialInputs<T>& in, const Vec3<T>& base_color, T metallic,
-                     const Lighting& lighting)
-      : at(surface),
+  HWY_INLINE Closure(const MaterialInputs<T>& in, const Vec3<T>& view, const Lighting& lighting)
+      : at{in.normal, view, Clamp(Dot(in.normal, view), T(kMinNDotV), T(1.0f))},
         lobes(in.lobes),
-        specular(surface, base_color, metallic, in.perceptual_roughness, lighting),
-        diffuse(base_color, metallic, specular) {}
+        microfacets(in.perceptual_roughness) {
+    const T zero(0.0f), one(1.0f);
+    const Vec3<T> base{Clamp(in.base_color.x, zero, one), Clamp(in.base_color.y, zero, one),
+                       Clamp(in.base_color.z, zero, one)};
+    const T metallic = Clamp(in.metallic, zero, one);
+    if (Has(kAnisotropy)) anisotropic = AnisotropicMicrofacets<T>(in.perceptual_roughness, in.anisotropy);
+    specular = MakeSpecular(in, base, metallic, lighting);
+    diffuse = DiffuseLobe<T>(base, metallic, specular);
+    if (Has(kTransmission)) diffuse.color = diffuse.color * (one - in.transmission);
+    if (Has(kDiffuseTransmission)) {
+      diffuse_transmission = DiffuseTransmissionLobe<T>(in.diffuse_transmission, metallic, diffuse);
+      if (Has(kTransmission)) diffuse_transmission.color = diffuse_transmission.color * (one - in.transmission);
+    }
+    if (Has(kClearcoat)) clearcoat = ClearcoatLobe<T>(in.clearcoat, view, lighting);
+  }
 
-  HWY_INLINE bool Has(MaterialFeatures lobe) const { return (lobes & lobe) != 0; }
+  HWY_INLINE bool Has(MaterialFeatures lobe) const { return (kPossible & lobe) != 0 && (lobes & lobe) != 0; }
+
+  // The roughness by which the specular lobe's albedo is looked up, for light from (or to) a direction.
+  HWY_INLINE T AlbedoRoughness(const Vec3<T>& direction) const {
+    return Has(kAnisotropy) ? anisotropic.AlbedoRoughness(direction) : microfacets.perceptual_roughness;
+  }
+
+ private:
+  template <class Lighting>
+  HWY_INLINE SpecularLobe<T> MakeSpecular(const MaterialInputs<T>& in, const Vec3<T>& base, T metallic,
+                                          const Lighting& lighting) const {
+    constexpr float kF0 = kDielectricF0;
+    Interface<T> dielectric{{T(kF0), T(kF0), T(kF0)}, T(1.0f)};
+    if (Has(kSpecular | kIor)) dielectric = in.dielectric;
+    Vec3<T> metal = base;
+    if (Has(kIridescence)) {
+      const ThinFilm<T> film(in.film, at.n_dot_v);
+      if (Has(kDiffuseLobe)) dielectric.f0 = film.F0Over(dielectric.f0);
+      metal = film.F0Over(metal);
+    }
+    const T average_roughness =
+        Has(kAnisotropy) ? anisotropic.AverageAlbedoRoughness() : microfacets.perceptual_roughness;
+    return SpecularLobe<T>(dielectric, metal, metallic, /*is_white_at_grazing=*/!Has(kSpecular),
+                           lighting.Dfg(at.n_dot_v, AlbedoRoughness(at.view)), lighting.DfgAverage(average_roughness));
+  }
 };
 
-template <class T, class Lighting>
-HWY_INLINE Closure<T> MakeClosure(const MaterialInputs<T>& in, Vec3<T> view, const Lighting& lighting) {
-  const T zero(0.0f), one(1.0f);
-  const SurfaceView<T> at{in.normal, view, Clamp(Dot(in.normal, view), T(kMinNDotV), one)};
-  const Vec3<T> base = {Clamp(in.base_color.x, zero, one), Clamp(in.base_color.y, zero, one),
-                        Clamp(in.base_color.z, zero, one)};
-  return Closure<T>(at, in, base, Clamp(in.metallic, zero, one), lighting);
+template <class T, MaterialFeatures kPossible = kAllLobes, class Lighting>
+HWY_INLINE Closure<T, kPossible> MakeClosure(const MaterialInputs<T>& in, Vec3<T> view, const Lighting& lighting) {
+  return Closure<T, kPossible>(in, view, lighting);
 }
 
-// The BRDF times n_dot_l, in 1/steradian, for light from `direction` (unit); zero below the horizon.
-template <class T, class Lighting>
-HWY_INLINE Vec3<T> EvaluateClosure(const Closure<T>& c, Vec3<T> direction, const Lighting& lighting) {
-  const T n_dot_l_signed = Dot(c.at.normal, direction);
-  const auto lit = n_dot_l_signed > T(0.0f);
-  Incidence<T> from{};
-  from.n_dot_l = Clamp(n_dot_l_signed, T(0.0f), T(1.0f));
-  from.half = NormalizeOr(c.at.view + direction, c.at.normal);
-  from.v_dot_h = Clamp(Dot(c.at.view, from.half), T(0.0f), T(1.0f));
-  const SpecularAlbedo<T> light_albedo = lighting.Dfg(from.n_dot_l, c.specular.perceptual_roughness);
+// The BSDF times the cosine with the normal, in 1/steradian, for light from `direction` (unit).
+template <class T, MaterialFeatures kPossible, class Lighting>
+HWY_INLINE Vec3<T> EvaluateClosure(const Closure<T, kPossible>& c, Vec3<T> direction, const Lighting& lighting) {
+  const T n_dot_l = Dot(c.at.normal, direction);
+  const Incidence<T> from = IncidenceFrom(c.at, direction);
+  const SpecularAlbedo<T> light_albedo = lighting.Dfg(from.n_dot_l, c.AlbedoRoughness(direction));
+  const T single = c.Has(kAnisotropy) ? c.anisotropic.Single(c.at, direction, from) : c.microfacets.Single(c.at, from);
 
-  Vec3<T> brdf = c.specular.Direct(c.at, from, light_albedo);
+  Vec3<T> brdf = c.specular.Direct(single, from.v_dot_h, light_albedo);
   if (c.Has(kDiffuseLobe)) brdf += c.diffuse.Direct(c.specular, light_albedo);
-  return Select<T>(lit, brdf * from.n_dot_l, Vec3<T>{});
+  Vec3<T> reflected = Select<T>(n_dot_l > T(0.0f), brdf * from.n_dot_l, Vec3<T>{});
+  if (c.Has(kDiffuseTransmission)) {
+    reflected += c.diffuse_transmission.Direct(c.diffuse, c.specular, -n_dot_l, c.AlbedoRoughness(direction), lighting);
+  }
+  if (c.Has(kClearcoat)) {
+    const T coat = c.clearcoat.Direct(direction, lighting);
+    reflected = reflected * c.clearcoat.EnergyLeft() + Vec3<T>{coat, coat, coat};
+  }
+  return reflected;
 }
 
-// The reflected radiance of the environment, without occlusion. `perceptual_roughness`: the material's, not clamped.
-template <class T, class Lighting>
-HWY_INLINE Vec3<T> EvaluateEnvironment(const Closure<T>& c, T perceptual_roughness, const Lighting& lighting) {
-  EnvironmentTerms<T> sum = c.specular.Environment(c.at, perceptual_roughness, lighting);
+// The radiance of the environment that the material scatters towards the view, without occlusion. `in`: of the closure,
+// whose roughness is not clamped.
+template <class T, MaterialFeatures kPossible, class Lighting>
+HWY_INLINE Vec3<T> EvaluateEnvironment(const Closure<T, kPossible>& c, const MaterialInputs<T>& in,
+                                       const Lighting& lighting) {
+  const Vec3<T> toward =
+      c.Has(kAnisotropy) ? c.anisotropic.DominantDirection(c.at) : c.microfacets.DominantDirection(c.at);
+  EnvironmentTerms<T> sum = c.specular.Environment(lighting.Prefiltered(toward, in.perceptual_roughness));
   if (c.Has(kDiffuseLobe)) sum.of_irradiance_over_pi += c.diffuse.Environment().of_irradiance_over_pi;
-  return sum.radiance + lighting.IrradianceOverPi(c.at.normal) * sum.of_irradiance_over_pi;
+  Vec3<T> radiance = sum.radiance + lighting.IrradianceOverPi(c.at.normal) * sum.of_irradiance_over_pi;
+  if (c.Has(kDiffuseTransmission)) radiance += c.diffuse_transmission.Environment(c.at, c.diffuse, lighting);
+  if (c.Has(kClearcoat)) {
+    radiance =
+        radiance * c.clearcoat.EnergyLeft() + c.clearcoat.Environment(in.clearcoat.perceptual_roughness, lighting);
+  }
+  return radiance;
 }
 
 // Radiance towards the eye. `view`: unit, from the surface to the eye; `position`: relative to the eye, world axes.
-template <class T, class Lighting>
+template <class T, MaterialFeatures kPossible = kAllLobes, class Lighting>
 HWY_INLINE Vec3<T> ShadeClosure(const MaterialInputs<T>& in, Vec3<T> view, Vec3<T> position, const Lighting& lighting) {
-  const Closure<T> closure = MakeClosure(in, view, lighting);
+  const Closure<T, kPossible> closure(in, view, lighting);
   Vec3<T> radiance = in.emissive;
-  if (lighting.HasEnvironment()) {
-    radiance += EvaluateEnvironment(closure, in.perceptual_roughness, lighting) * in.occlusion;
-  }
+  if (closure.Has(kClearcoat)) radiance = radiance * closure.clearcoat.EnergyLeft();
+  if (lighting.HasEnvironment()) radiance += EvaluateEnvironment(closure, in, lighting) * in.occlusion;
   const int light_count = lighting.LightCount();
   for (int i = 0; i < light_count; ++i) {
     const LightSample<T> light = lighting.Sample(i, position);

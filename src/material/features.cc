@@ -16,13 +16,12 @@ MaterialFeatures FeaturesOf(const Material& m, bool on_surface) {
   set(m.alpha_mode == AlphaMode::Blend, kAlphaBlend);
   set(m.double_sided, kDoubleSided);
   set(lit, kLit);
-  const auto shows = [&](const SlotInfo& slot) {
-    return (model.texture_slots & BitOf(slot.slot)) != 0 && (lit || !slot.needs_light) && slot.is_visible(m);
+  const auto shows = [&](const auto& row, MaterialFeatures bit) {
+    return (model.reads & bit) != 0 && (lit || !row.needs_light) && row.is_visible(m);
   };
-  for (const FactorFeature& factor : kFactorFeatures) set(shows(InfoOf(factor.slot)), factor.bit);
-  for (const SlotInfo& slot : kSlots) set(bool(m.*slot.ref) && shows(slot), BitOf(slot.slot));
-  const bool is_metal = m.metallic_factor == 1.0f && (features & BitOf(Slot::MetallicRoughness)) == 0;
-  set(lit && !is_metal, kDiffuseLobe);
+  for (const FactorFeature& factor : kFactorFeatures) set(shows(factor, factor.bit), factor.bit);
+  for (const SlotInfo& slot : kSlots) set(bool(m.*slot.ref) && shows(slot, BitOf(slot.slot)), BitOf(slot.slot));
+  set(lit && !IsMetal(m), kDiffuseLobe);
   return features;
 }
 

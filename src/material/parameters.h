@@ -13,6 +13,7 @@ namespace facet {
 // An inclusive range; with an infinite end it has all finite numbers on that side.
 struct ParameterRange {
   float low = 0.0f, high = 1.0f;
+  float exception = std::numeric_limits<float>::quiet_NaN();  // one more value that is allowed; NaN: none
 };
 
 template <class Value>
@@ -24,16 +25,21 @@ struct Parameter {
   const char* gltf_name;
   Value Material::*member;
   ParameterRange range = {};  // of numbers
+  bool alternative = false;   // another name of a member that has a row of its own; only loaders read it
 };
 
 // Whether a parameter's group is an extension. Only extensions have an underscore in their names.
 constexpr bool IsExtension(std::string_view group) { return group.find('_') != group.npos; }
 
-// Calls visit(Parameter<Value>) for each parameter, in the order in which they enter the hash of a scene.
+// Calls visit(Parameter<Value>) for each parameter, in the order in which they enter the hash of a scene. The rows
+// after kCoreParameters enter it only where they are stated, so that scenes keep their hashes when extensions are
+// added.
+inline constexpr int kCoreParameters = 16;
 template <class Visit>
 constexpr void ForEachParameter(const Visit& visit) {
-  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  constexpr float kInfinity = std::numeric_limits<float>::infinity(), kSmallest = std::numeric_limits<float>::min();
   constexpr ParameterRange kShare{0.0f, 1.0f}, kPositive{0.0f, kInfinity}, kAny{-kInfinity, kInfinity};
+  constexpr ParameterRange kIorRange{1.0f, kInfinity, 0.0f}, kDistance{kSmallest, kInfinity, kInfinity};
   constexpr const char* kPbr = "pbrMetallicRoughness";
   const auto texture = [&](Slot slot) {
     const SlotInfo& info = InfoOf(slot);
@@ -57,6 +63,69 @@ constexpr void ForEachParameter(const Visit& visit) {
   visit(Parameter<float>{"alpha cutoff", nullptr, "alphaCutoff", &Material::alpha_cutoff, kPositive});
   visit(Parameter<bool>{"double-sidedness", nullptr, "doubleSided", &Material::double_sided});
   visit(Parameter<ShadingModel>{"shading model", nullptr, nullptr, &Material::model});
+
+  visit(Parameter<float>{"clear coat factor", "KHR_materials_clearcoat", "clearcoatFactor", &Material::clearcoat_factor,
+                         kShare});
+  texture(Slot::Clearcoat);
+  visit(Parameter<float>{"clear coat roughness factor", "KHR_materials_clearcoat", "clearcoatRoughnessFactor",
+                         &Material::clearcoat_roughness_factor, kShare});
+  texture(Slot::ClearcoatRoughness);
+  texture(Slot::ClearcoatNormal);
+  visit(Parameter<float>{"clear coat normal scale", "KHR_materials_clearcoat.clearcoatNormalTexture", "scale",
+                         &Material::clearcoat_normal_scale, kAny});
+  visit(Parameter<glm::vec3>{"sheen colour factor", "KHR_materials_sheen", "sheenColorFactor",
+                             &Material::sheen_color_factor, kShare});
+  texture(Slot::SheenColor);
+  visit(Parameter<float>{"sheen roughness factor", "KHR_materials_sheen", "sheenRoughnessFactor",
+                         &Material::sheen_roughness_factor, kShare});
+  texture(Slot::SheenRoughness);
+  visit(Parameter<float>{"specular factor", "KHR_materials_specular", "specularFactor", &Material::specular_factor,
+                         kShare});
+  texture(Slot::Specular);
+  visit(Parameter<glm::vec3>{"specular colour factor", "KHR_materials_specular", "specularColorFactor",
+                             &Material::specular_color_factor, kPositive});
+  texture(Slot::SpecularColor);
+  visit(Parameter<float>{"index of refraction", "KHR_materials_ior", "ior", &Material::ior, kIorRange});
+  visit(Parameter<float>{"transmission factor", "KHR_materials_transmission", "transmissionFactor",
+                         &Material::transmission_factor, kShare});
+  texture(Slot::Transmission);
+  visit(Parameter<float>{"thickness factor", "KHR_materials_volume", "thicknessFactor", &Material::thickness_factor,
+                         kPositive});
+  texture(Slot::Thickness);
+  visit(Parameter<float>{"attenuation distance", "KHR_materials_volume", "attenuationDistance",
+                         &Material::attenuation_distance, kDistance});
+  visit(Parameter<glm::vec3>{"attenuation colour", "KHR_materials_volume", "attenuationColor",
+                             &Material::attenuation_color, kShare});
+  visit(Parameter<float>{"dispersion", "KHR_materials_dispersion", "dispersion", &Material::dispersion, kPositive});
+  visit(Parameter<float>{"diffuse transmission factor", "KHR_materials_diffuse_transmission",
+                         "diffuseTransmissionFactor", &Material::diffuse_transmission_factor, kShare});
+  texture(Slot::DiffuseTransmission);
+  visit(Parameter<glm::vec3>{"diffuse transmission colour factor", "KHR_materials_diffuse_transmission",
+                             "diffuseTransmissionColorFactor", &Material::diffuse_transmission_color_factor, kShare});
+  texture(Slot::DiffuseTransmissionColor);
+  visit(Parameter<float>{"iridescence factor", "KHR_materials_iridescence", "iridescenceFactor",
+                         &Material::iridescence_factor, kShare});
+  texture(Slot::Iridescence);
+  visit(Parameter<float>{"iridescence index of refraction", "KHR_materials_iridescence", "iridescenceIor",
+                         &Material::iridescence_ior, ParameterRange{1.0f, kInfinity}});
+  visit(Parameter<float>{"iridescence thickness minimum", "KHR_materials_iridescence", "iridescenceThicknessMinimum",
+                         &Material::iridescence_thickness_minimum, kPositive});
+  visit(Parameter<float>{"iridescence thickness maximum", "KHR_materials_iridescence", "iridescenceThicknessMaximum",
+                         &Material::iridescence_thickness_maximum, kPositive});
+  texture(Slot::IridescenceThickness);
+  visit(Parameter<float>{"anisotropy strength", "KHR_materials_anisotropy", "anisotropyStrength",
+                         &Material::anisotropy_strength, kShare});
+  visit(Parameter<float>{"anisotropy rotation", "KHR_materials_anisotropy", "anisotropyRotation",
+                         &Material::anisotropy_rotation, kAny});
+  texture(Slot::Anisotropy);
+  constexpr const char* kOld = "KHR_materials_pbrSpecularGlossiness";
+  visit(Parameter<glm::vec4>{"base colour factor", kOld, "diffuseFactor", &Material::base_color_factor, kShare, true});
+  visit(Parameter<TextureRef>{
+      "base colour texture", kOld, "diffuseTexture", &Material::base_color_texture, {}, /*alternative=*/true});
+  visit(Parameter<glm::vec3>{"specular factor", kOld, "specularFactor", &Material::specular_glossiness_specular_factor,
+                             kShare});
+  visit(Parameter<float>{"glossiness factor", kOld, "glossinessFactor", &Material::glossiness_factor, kShare});
+  texture(Slot::SpecularGlossiness);
 }
 
 // The parameters in the form that the shading stage reads.
@@ -68,17 +137,30 @@ struct MaterialFactors {
   float occlusion_strength = 1.0f;
   float emissive[3] = {0, 0, 0};  // factor times strength
   float alpha_cutoff = 0.5f;
+
+  float clearcoat = 0.0f;
+  float clearcoat_perceptual_roughness = 0.0f;
+  float clearcoat_normal_scale = 1.0f;
+  float sheen_color[3] = {0, 0, 0};
+  float sheen_perceptual_roughness = 0.0f;
+  float dielectric_f0 = 0.04f;  // by the index of refraction
+  float specular = 1.0f;
+  float specular_color[3] = {1, 1, 1};
+  float transmission = 0.0f;
+  // What transmission through a volume refracts by, for red, green and blue: equal without dispersion.
+  float ior[3] = {1.5f, 1.5f, 1.5f};
+  float thickness = 0.0f;           // units of the mesh
+  float absorption[3] = {0, 0, 0};  // per metre
+  float diffuse_transmission = 0.0f;
+  float diffuse_transmission_color[3] = {1, 1, 1};
+  float iridescence = 0.0f;
+  float iridescence_ior = 1.3f;
+  float film_thickness_minimum_nm = 100.0f, film_thickness_maximum_nm = 400.0f;
+  float anisotropy = 0.0f;
+  float anisotropy_direction[2] = {1, 0};  // cosine and sine of the rotation
+  float specular_glossiness_specular[3] = {1, 1, 1};
+  float glossiness = 1.0f;
 };
-inline MaterialFactors FactorsOf(const Material& material) {
-  MaterialFactors f;
-  for (int i = 0; i < 4; ++i) f.base_color[i] = material.base_color_factor[i];
-  f.metallic = material.metallic_factor;
-  f.perceptual_roughness = material.roughness_factor;
-  f.normal_scale = material.normal_scale;
-  f.occlusion_strength = material.occlusion_strength;
-  for (int i = 0; i < 3; ++i) f.emissive[i] = material.emissive_factor[i] * material.emissive_strength;
-  f.alpha_cutoff = material.alpha_cutoff;
-  return f;
-}
+MaterialFactors FactorsOf(const Material& material);
 
 }  // namespace facet

@@ -44,8 +44,72 @@ HWY_INLINE Vec3<T> ReadEmission(const Source& from) {
   return e;
 }
 
-// `base`: the base colour with its alpha. `features`: of the material.
+// A factor times one channel of a texture.
+template <int kChannel, class T, class Source>
+HWY_INLINE T ReadFactor(const Source& from, float factor, Slot slot) {
+  if (!from.Has(BitOf(slot))) return T(factor);
+  const Vec4<T> texel = from.template Read<kChannel>(slot);
+  return T(factor) * (kChannel == kR ? texel.x : kChannel == kG ? texel.y : kChannel == kB ? texel.z : texel.w);
+}
 template <class T, class Source>
+HWY_INLINE Vec3<T> ReadColor(const Source& from, const float (&factor)[3], Slot slot) {
+  const Vec3<T> color{T(factor[0]), T(factor[1]), T(factor[2])};
+  return from.Has(BitOf(slot)) ? color * Xyz(from.template Read<kRgb>(slot)) : color;
+}
+
+// The dielectric's reflectance (KHR_materials_specular, KHR_materials_ior).
+template <class T, class Source>
+HWY_INLINE Interface<T> ReadDielectric(const Source& from) {
+  const MaterialFactors& f = from.Factors();
+  const T specular = ReadFactor<kA, T>(from, f.specular, Slot::Specular), one(1.0f), f0(f.dielectric_f0);
+  const Vec3<T> color = ReadColor<T>(from, f.specular_color, Slot::SpecularColor);
+  return {{Min(f0 * color.x, one) * specular, Min(f0 * color.y, one) * specular, Min(f0 * color.z, one) * specular},
+          specular};
+}
+
+template <class T, class Source>
+HWY_INLINE ClearcoatInputs<T> ReadClearcoat(const Source& from) {
+  const MaterialFactors& f = from.Factors();
+  return {ReadFactor<kR, T>(from, f.clearcoat, Slot::Clearcoat),
+          ReadFactor<kG, T>(from, f.clearcoat_perceptual_roughness, Slot::ClearcoatRoughness),
+          MappedNormal<T>(from, Slot::ClearcoatNormal, f.clearcoat_normal_scale)};
+}
+
+template <class T, class Source>
+HWY_INLINE FilmInputs<T> ReadFilm(const Source& from) {
+  const MaterialFactors& f = from.Factors();
+  T thickness(f.film_thickness_maximum_nm);
+  if (from.Has(BitOf(Slot::IridescenceThickness))) {
+    thickness = Mix(T(f.film_thickness_minimum_nm), thickness, from.template Read<kG>(Slot::IridescenceThickness).y);
+  }
+  return {ReadFactor<kR, T>(from, f.iridescence, Slot::Iridescence), T(f.iridescence_ior), thickness};
+}
+
+// `normal`: the shading normal, unit. Where the surface has no tangent, any direction takes its place.
+template <class T, class Source>
+HWY_INLINE AnisotropyInputs<T> ReadAnisotropy(const Source& from, const Vec3<T>& normal) {
+  const MaterialFactors& f = from.Factors();
+  T x(f.anisotropy_direction[0]), y(f.anisotropy_direction[1]), strength(f.anisotropy);
+  if (from.Has(BitOf(Slot::Anisotropy))) {
+    const Vec4<T> texel = from.template Read<kRgb>(Slot::Anisotropy);
+    const T u = texel.x * T(2.0f) - T(1.0f), v = texel.y * T(2.0f) - T(1.0f), cosine = x, sine = y;
+    x = cosine * u - sine * v;
+    y = sine * u + cosine * v;
+    strength = strength * texel.z;
+  }
+  const Vec3<T> along = Xyz(from.Tangent());
+  const Vec3<T> across = Cross(from.InterpolatedNormal(), along) * from.Tangent().w;
+  const Vec3<T> direction = along * x + across * y;
+  const T zero(0.0f), one(1.0f);
+  const auto is_steep = Abs(normal.y) < T(0.9f);
+  const Vec3<T> other = NormalizeOr(
+      Cross(Select<T>(is_steep, Vec3<T>{zero, one, zero}, Vec3<T>{one, zero, zero}), normal), Vec3<T>{one, zero, zero});
+  const Vec3<T> tangent = NormalizeOr(direction - normal * Dot(normal, direction), other);
+  return {tangent, Cross(normal, tangent), Clamp(strength, zero, one)};
+}
+
+// `base`: the base colour with its alpha. `features`: of the material. `kPossible`: those of its lobes that are read.
+template <class T, MaterialFeatures kPossible = kAllLobes, class Source>
 HWY_INLINE MaterialInputs<T> ReadInputs(const Source& from, const Vec4<T>& base, MaterialFeatures features) {
   const MaterialFactors& f = from.Factors();
   T metallic(f.metallic), perceptual_roughness(f.perceptual_roughness), occlusion(1.0f);
@@ -58,8 +122,38 @@ HWY_INLINE MaterialInputs<T> ReadInputs(const Source& from, const Vec4<T>& base,
     occlusion = occlusion + T(f.occlusion_strength) * (from.template Read<kR>(Slot::Occlusion).x - T(1.0f));
   }
   const Vec3<T> emissive = from.Has(kEmission) ? ReadEmission<T>(from) : Vec3<T>{T(0.0f), T(0.0f), T(0.0f)};
-  return {Xyz(base), base.w,   metallic, perceptual_roughness, MappedNormal<T>(from, Slot::Normal, f.normal_scale),
-          occlusion, emissive, features};
+  MaterialInputs<T> in{
+      Xyz(base), base.w,   metallic, perceptual_roughness, MappedNormal<T>(from, Slot::Normal, f.normal_scale),
+      occlusion, emissive, features};
+  const auto has = [&](MaterialFeatures lobe) HWY_ATTR { return (kPossible & lobe) != 0 && (features & lobe) != 0; };
+  if (has(kSpecular | kIor)) in.dielectric = ReadDielectric<T>(from);
+  if (has(kClearcoat)) in.clearcoat = ReadClearcoat<T>(from);
+  if (has(kIridescence)) in.film = ReadFilm<T>(from);
+  if (has(kAnisotropy)) in.anisotropy = ReadAnisotropy<T>(from, in.normal);
+  if (has(kTransmission)) in.transmission = ReadFactor<kR, T>(from, f.transmission, Slot::Transmission);
+  if (has(kDiffuseTransmission)) {
+    in.diffuse_transmission = {ReadFactor<kA, T>(from, f.diffuse_transmission, Slot::DiffuseTransmission),
+                               ReadColor<T>(from, f.diffuse_transmission_color, Slot::DiffuseTransmissionColor)};
+  }
+  return in;
+}
+
+// Replaces what the specular-glossiness model reads otherwise: a dielectric whose F0 is a colour.
+template <class T, class Source>
+HWY_INLINE void SetSpecularGlossiness(const Source& from, MaterialInputs<T>& in) {
+  const MaterialFactors& f = from.Factors();
+  const float* const specular = f.specular_glossiness_specular;
+  Vec3<T> f0{T(specular[0]), T(specular[1]), T(specular[2])};
+  T glossiness(f.glossiness);
+  if (from.Has(BitOf(Slot::SpecularGlossiness))) {
+    const Vec4<T> texel = from.template Read<kRgba>(Slot::SpecularGlossiness);
+    f0 = f0 * Xyz(texel);
+    glossiness = glossiness * texel.w;
+  }
+  in.metallic = T(0.0f);
+  in.perceptual_roughness = T(1.0f) - glossiness;
+  in.dielectric = {f0, T(1.0f)};
+  in.lobes = in.lobes | kIor | kDiffuseLobe;
 }
 
 }  // namespace HWY_NAMESPACE

@@ -41,6 +41,7 @@ class Planner {
     for (const SlotInfo& slot : kSlots) {
       if (flat && slot.tangent_space) material.*slot.ref = {};
     }
+    if (flat) material.anisotropy_strength = 0.0f;
     Disable(material, colors);
     PlannedMaterial planned;
     planned.material = index;
@@ -92,7 +93,7 @@ class Planner {
       disable(slot.feature, bool(ref), [&ref] { ref = {}; });
     }
     for (const FactorFeature& factor : kFactorFeatures) {
-      disable(InfoOf(factor.slot).feature, factor.is_stated(m), [&] { factor.disable(m); });
+      disable(factor.feature, factor.is_stated(m), [&] { factor.disable(m); });
     }
     disable(Feature::VertexColors, colors, [&colors] { colors = false; });
     const auto opaque = [&m] { m.alpha_mode = AlphaMode::Opaque; };
@@ -147,6 +148,7 @@ PoseSettings PoseOf(const RenderSettings& settings) {
   for (const SlotInfo& slot : kSlots) {
     if (settings.without.Has(slot.feature)) pose.tangent_space_textures &= ~BitOf(slot.slot);
   }
+  if (settings.without.Has(Feature::Anisotropy)) pose.tangent_space_textures &= ~kAnisotropy;
   pose.skins = !settings.without.Has(Feature::Skins);
   pose.morph_targets = !settings.without.Has(Feature::MorphTargets);
   return pose;
@@ -183,14 +185,15 @@ FramePlan MakeFramePlan(const Scene& scene, const PosedScene& posed, const Rende
   };
 
   for (const SlotInfo& slot : kSlots) {
-    const auto has_factor = [&](const FactorFeature& factor) { return InfoOf(factor.slot).feature == slot.feature; };
+    const auto has_factor = [&](const FactorFeature& factor) { return factor.feature == slot.feature; };
     if (std::ranges::any_of(kFactorFeatures, has_factor)) continue;  // handled below
     decide_of_materials(any_has(BitOf(slot.slot)), slot.feature, std::string(slot.name) + "s",
                         "no drawn material has one");
   }
-  if (!any_has(kTangentSpaceBits)) plan.disabled.emplace_back("tangents: no normal texture is read");
+  if (!any_has(kTangentSpaceBits))
+    plan.disabled.emplace_back("tangents: no normal texture is read, and no surface is anisotropic");
   for (const FactorFeature& factor : kFactorFeatures) {
-    decide_of_materials(any_has(factor.bit), InfoOf(factor.slot).feature, factor.name, factor.why_none);
+    decide_of_materials(any_has(factor.bit), factor.feature, factor.name, factor.why_none);
   }
   decide_of_materials(any([](const FrameMaterial& m) { return m.vertex_colors; }), Feature::VertexColors,
                       "vertex colours", "no drawn geometry has them");

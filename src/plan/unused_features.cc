@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "material/models/models.h"
+
 namespace facet {
 namespace {
 
@@ -17,11 +19,16 @@ int WhiteTexture(TextureRole role, FramePlan& plan) {
 
 void UseWhiteTextures(PlannedMaterial& material, FramePlan& plan) {
   FrameMaterial& f = material.frame;
+  const ModelInfo& model = InfoOf(f.model);
+  for (const FactorFeature& factor : kFactorFeatures) {
+    if (factor.is_neutral_at_zero && (model.reads & factor.bit) != 0 && f.Has(kLit)) f.features |= factor.bit;
+  }
   for (const SlotInfo& slot : kSlots) {
     const std::size_t i = IndexOf(slot.slot);
+    if ((model.reads & BitOf(slot.slot)) == 0) continue;
     if (!slot.white_is_neutral || material.textures[i] >= 0 || (slot.slot != Slot::BaseColor && !f.Has(kLit))) continue;
     if (f.uv_slots == 0) f.uv_slots = 1;  // TEXCOORD_0, zeros where there is none: one texel is the same everywhere
-    f.features |= BitOf(slot.slot) | (slot.slot == Slot::Emissive ? kEmission : MaterialFeatures{0});
+    f.features |= BitOf(slot.slot);
     f.textures[i] = BoundTexture();
     material.textures[i] = WhiteTexture(slot.role, plan);
   }

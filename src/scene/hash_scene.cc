@@ -1,4 +1,5 @@
 #include <optional>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 
@@ -50,11 +51,30 @@ class Description {
   }
   void Fields(const glm::dquat& q) { All(q.w, q.x, q.y, q.z); }
 
+  template <class T>
+  static bool IsSame(const T& a, const T& b) {
+    if constexpr (std::is_same_v<T, TextureRef>) {
+      return !a && !b;
+    } else {
+      return a == b;
+    }
+  }
+
   void Fields(const Sampler& s) { All(s.wrap_u, s.wrap_v, s.magnification, s.minification, s.mip); }
   void Fields(const Texture& t) { All(t.image, t.sampler); }
   void Fields(const TextureRef& t) { All(t.texture, t.tex_coord, t.offset, t.scale, t.rotation); }
   void Fields(const Material& m) {
-    ForEachParameter([&](const auto& parameter) { Add(m.*parameter.member); });
+    const Material plain;
+    int row = 0;
+    ForEachParameter([&](const auto& parameter) {
+      if (parameter.alternative) return;
+      const auto& value = m.*parameter.member;
+      if (row++ < kCoreParameters) return Add(value);
+      if (IsSame(value, plain.*parameter.member)) return;
+      for (const char c : std::string_view(parameter.gltf_group)) Add(c);
+      for (const char c : std::string_view(parameter.gltf_name)) Add(c);
+      Add(value);
+    });
   }
   void Fields(const Primitive& p) { All(p.topology, p.material, p.variant_materials); }  // the rest is geometry
   void Fields(const Mesh& m) { All(m.primitives, m.weights); }

@@ -73,14 +73,18 @@ int MaterialOf(const Primitive& primitive, int variant) {
   return primitive.material;
 }
 
-// The first texture that shading reads in tangent space, by the rule of the frame plan; null: none.
+// The first texture that shading reads in tangent space, by the rule of the frame plan; null: none. Anisotropy without
+// a texture has the tangents of the first UV set.
 const TextureRef* TangentSpaceTexture(const Scene& scene, const Material& material, MaterialFeatures among) {
   const MaterialFeatures read = FeaturesOf(material) & among;
   for (const SlotInfo& slot : kSlots) {
     const TextureRef& ref = material.*slot.ref;
-    if ((read & BitOf(slot.slot)) != 0 && scene.textures[std::size_t(ref.texture)].image >= 0) return &ref;
+    if (slot.tangent_space && (read & BitOf(slot.slot)) != 0 && scene.textures[std::size_t(ref.texture)].image >= 0) {
+      return &ref;
+    }
   }
-  return nullptr;
+  static const TextureRef first_uv_set;
+  return (read & kAnisotropy) != 0 ? &first_uv_set : nullptr;
 }
 
 Shape MakeShape(const Scene& scene, const Primitive& primitive, int material, const PoseSettings& settings) {

@@ -126,12 +126,17 @@ void CheckParameter(const Value& value, const Parameter<Value>& parameter, const
   } else if constexpr (std::is_same_v<Value, ShadingModel>) {
     CheckEnum(value, kModels.back().model, where, parameter.name);
   } else if constexpr (!std::is_same_v<Value, bool>) {
+    if constexpr (std::is_same_v<Value, float>) {
+      if (value == parameter.range.exception) return;
+    }
     CheckRange(value, parameter.range.low, parameter.range.high, where, parameter.name);
   }
 }
 
 void CheckMaterial(const Material& material, const Scene& scene, const Where& where) {
-  ForEachParameter([&](const auto& parameter) { CheckParameter(material.*parameter.member, parameter, scene, where); });
+  ForEachParameter([&](const auto& parameter) {
+    if (!parameter.alternative) CheckParameter(material.*parameter.member, parameter, scene, where);
+  });
 }
 
 void CheckTarget(const MorphTarget& target, std::size_t count, const Where& where) {

@@ -104,7 +104,7 @@ class TextureReader {
   const BoundTexture* made_for_ = nullptr;
   TextureTaps<T> taps_;
   int summed_count_ = 0;
-  const BoundTexture* summed_[kSlotCount] = {};  // the textures that ReadAll() has summed
+  const BoundTexture* summed_[kSlotCount];  // the textures that ReadAll() has summed
   TexelSums<T> sums_[kSlotCount];
   const BoundTexture* empty_ = nullptr;  // the texture that ReadAll() found to be empty
 };
@@ -150,13 +150,20 @@ class MaterialView {
     return ReadEmission<T>(Source{m_, s, textures});
   }
 
-  // All inputs of the metallic-roughness model.
+  // All inputs of the metallic-roughness model, or of the specular-glossiness model. `kPossible`: the lobes that are
+  // read.
+  template <MaterialFeatures kPossible = kAllLobes>
   HWY_INLINE MaterialInputs<T> Inputs(const Surface<T>& s) const {
     TextureReader<T> own(s);
     TextureReader<T>& textures = ReaderOf(s, own);
     textures.ReadAll(m_);
     const Vec4<T> base = BaseColor(s, textures);
-    return ReadInputs<T>(Source{m_, s, textures}, base, m_.features);
+    const Source source{m_, s, textures};
+    MaterialInputs<T> in = ReadInputs<T, kPossible>(source, base, m_.features);
+    if constexpr ((kPossible & kIor) != 0) {
+      if (m_.model == ShadingModel::SpecularGlossiness) SetSpecularGlossiness(source, in);
+    }
+    return in;
   }
 
  private:

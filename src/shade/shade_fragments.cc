@@ -15,10 +15,15 @@ HWY_BEFORE_NAMESPACE();
 namespace facet {
 namespace HWY_NAMESPACE {
 
-#define FACET_MODEL_KERNEL(Name)             \
-  void Name##Kernel(const ShadeTask& task) { \
-    Surface<Float> surfaces[2];              \
-    ShadePackets(task, Name(), surfaces);    \
+// Materials without layers have a kernel of their own, which has neither the branches nor the registers of the others.
+#define FACET_MODEL_KERNEL(Name)                                  \
+  void Name##Kernel(const ShadeTask& task) {                      \
+    Surface<Float> surfaces[2];                                   \
+    ShadePackets(task, ModelWith<Name, Name::kCore>(), surfaces); \
+  }                                                               \
+  void Layered##Name##Kernel(const ShadeTask& task) {             \
+    Surface<Float> surfaces[2];                                   \
+    ShadePackets(task, Name(), surfaces);                         \
   }
 FACET_SHADING_MODELS(FACET_MODEL_KERNEL)
 #undef FACET_MODEL_KERNEL
@@ -76,16 +81,20 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace facet {
 
-#define FACET_MODEL_EXPORT(Name) FACET_EXPORT(Name##Kernel);
+#define FACET_MODEL_EXPORT(Name) \
+  FACET_EXPORT(Name##Kernel);    \
+  FACET_EXPORT(Layered##Name##Kernel);
 FACET_SHADING_MODELS(FACET_MODEL_EXPORT)
 #undef FACET_MODEL_EXPORT
 FACET_EXPORT(AlphaKernel);
 FACET_EXPORT(BackgroundKernel);
 
 void ShadeFragments(const ShadeTask& task) {
+  const bool layered = task.material->Has(kLayerFeatures);
   switch (task.material->model) {
 #define FACET_MODEL_CASE(Name) \
-  case ShadingModel::Name: return FACET_DISPATCH(Name##Kernel)(task);
+  case ShadingModel::Name:     \
+    return layered ? FACET_DISPATCH(Layered##Name##Kernel)(task) : FACET_DISPATCH(Name##Kernel)(task);
     FACET_SHADING_MODELS(FACET_MODEL_CASE)
 #undef FACET_MODEL_CASE
   }

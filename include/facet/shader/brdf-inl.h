@@ -51,6 +51,15 @@ HWY_INLINE T DistributionGgx(Vec3<T> normal, Vec3<T> half, T alpha) {
   return DistributionGgx(Max(Dot(normal, half), T(0.0f)), Dot(c, c), alpha);
 }
 
+// The same where the surface is rougher along the tangent than across it. The arguments are the components of the half
+// vector. Burley, 2012, Physically Based Shading at Disney, appendix B.2.
+template <class T>
+HWY_INLINE T DistributionGgxAnisotropic(T t_dot_h, T b_dot_h, T n_dot_h, T alpha_t, T alpha_b) {
+  const T t = t_dot_h / alpha_t, b = b_dot_h / alpha_b;
+  const T k = t * t + b * b + n_dot_h * n_dot_h;
+  return T(kInversePi) / (alpha_t * alpha_b * k * k);
+}
+
 // Visibility: masking and shadowing divided by 4 n_dot_l n_dot_v; height-correlated Smith.
 // Heitz, 2014, Understanding the Masking-Shadowing Function in Microfacet-Based BRDFs, equation 99; in the form of
 // glTF 2.0's specification, appendix B.3. Finite while n_dot_v > 0 and n_dot_l >= 0 and alpha > 0.
@@ -82,11 +91,11 @@ HWY_INLINE Vec3<T> FresnelSchlick(Vec3<T> f0, T v_dot_h) {
   return {f0.x * rest + w, f0.y * rest + w, f0.z * rest + w};
 }
 
-// Mean of Schlick's Fresnel over the hemisphere, weighted by the cosine: f0 + (1 - f0) / 21, because the integral of
+// Mean of Schlick's Fresnel over the hemisphere, weighted by the cosine: f0 + (f90 - f0) / 21, because the integral of
 // 2 mu (1 - mu)^5 over [0, 1] is 1/21.
 template <class T>
-HWY_INLINE T FresnelSchlickAverage(T f0) {
-  return f0 + (T(1.0f) - f0) * T(1.0f / 21.0f);
+HWY_INLINE T FresnelSchlickAverage(T f0, T f90 = T(1.0f)) {
+  return f0 + (f90 - f0) * T(1.0f / 21.0f);
 }
 
 // Lambert, 1760, Photometria: equal radiance in all directions, in 1/steradian for albedo 1.
@@ -100,8 +109,8 @@ HWY_INLINE T DiffuseLambert() {
 // the square that Hill, 2018, A Multi-Faceted Exploration, part 3, adds (light bounces at least twice). 1 for a perfect
 // reflector.
 template <class T>
-HWY_INLINE T MultipleScatteringFresnel(T f0, T e_avg) {
-  const T f = FresnelSchlickAverage(f0);
+HWY_INLINE T MultipleScatteringFresnel(T f0, T e_avg, T f90 = T(1.0f)) {
+  const T f = FresnelSchlickAverage(f0, f90);
   return f * f * e_avg / (T(1.0f) - f * (T(1.0f) - e_avg));
 }
 

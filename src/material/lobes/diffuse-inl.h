@@ -22,6 +22,8 @@ struct DiffuseLobe {
   T left_for_view{};  // 1 - Ed(v)
   T scale{};          // 1 / (pi (1 - Ed_avg))
 
+  HWY_INLINE DiffuseLobe() {}  // for a lobe that a material does not have
+
   HWY_INLINE DiffuseLobe(const Vec3<T>& base_color, T metallic, const SpecularLobe<T>& above) {
     color = base_color * (T(1.0f) - metallic);
     left_for_view = above.EnergyLeftByDielectric(above.albedo);

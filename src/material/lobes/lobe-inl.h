@@ -53,6 +53,15 @@ struct Incidence {
   T n_dot_l{}, v_dot_h{};
 };
 
+template <class T>
+HWY_INLINE Incidence<T> IncidenceFrom(const SurfaceView<T>& at, const Vec3<T>& light) {
+  Incidence<T> from{};
+  from.n_dot_l = Clamp(Dot(at.normal, light), T(0.0f), T(1.0f));
+  from.half = NormalizeOr(at.view + light, at.normal);
+  from.v_dot_h = Clamp(Dot(at.view, from.half), T(0.0f), T(1.0f));
+  return from;
+}
+
 // The reflection of the environment by one lobe: radiance that it looks up itself, and the factor of irradiance / pi
 // that it reflects in addition. The closure looks up the irradiance once for all lobes.
 template <class T>

@@ -9,6 +9,7 @@
 
 #include "material/models/metallic_roughness-inl.h"
 #include "material/models/models.h"
+#include "material/models/specular_glossiness-inl.h"
 #include "material/models/unlit-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -26,6 +27,15 @@ struct ModelOfMaterial {
 #undef FACET_MODEL_CASE
     }
     return {};
+  }
+};
+
+// A model, for materials whose lobes are all in `kPossible`.
+template <class Model, MaterialFeatures kPossible>
+struct ModelWith {
+  template <class T, class Material, class Lighting>
+  HWY_INLINE Shaded<T> operator()(const Surface<T>& surface, const Material& material, const Lighting& lighting) const {
+    return Model::template With<kPossible>(surface, material, lighting);
   }
 };
 

@@ -17,8 +17,15 @@ namespace HWY_NAMESPACE {
 struct MetallicRoughness {
   template <class T, class Material, class Lighting>
   HWY_INLINE Shaded<T> operator()(const Surface<T>& surface, const Material& material, const Lighting& lighting) const {
-    const MaterialInputs<T> inputs = material.Inputs(surface);
-    return {ShadeClosure(inputs, surface.view, surface.position, lighting), inputs.alpha_coverage};
+    return With<kAllLobes>(surface, material, lighting);
+  }
+
+  // For materials whose lobes are all in `kPossible`.
+  static constexpr MaterialFeatures kCore = kCoreLobes;
+  template <MaterialFeatures kPossible, class T, class Material, class Lighting>
+  static HWY_INLINE Shaded<T> With(const Surface<T>& surface, const Material& material, const Lighting& lighting) {
+    const MaterialInputs<T> inputs = material.template Inputs<kPossible>(surface);
+    return {ShadeClosure<T, kPossible>(inputs, surface.view, surface.position, lighting), inputs.alpha_coverage};
   }
 };
 

@@ -11,7 +11,7 @@
 #include "material/slots.h"
 
 // Names of functors, in the order of ShadingModel.
-#define FACET_SHADING_MODELS(X) X(MetallicRoughness) X(Unlit)
+#define FACET_SHADING_MODELS(X) X(MetallicRoughness) X(SpecularGlossiness) X(Unlit)
 
 namespace facet {
 
@@ -19,12 +19,18 @@ struct ModelInfo {
   ShadingModel model;
   const char* word;                // in the output of `facet info`
   const char* gltf_extension;      // the extension that selects it; null: core glTF
-  MaterialFeatures texture_slots;  // bits of the slots that it reads
+  MaterialFeatures reads;          // bits of the texture slots and features that it reads
   bool reads_light;
 };
 
+inline constexpr MaterialFeatures kMetallicRoughnessOnly =
+    BitOf(Slot::MetallicRoughness) | BitOf(Slot::Specular) | BitOf(Slot::SpecularColor) | kSpecular | kIor;
+inline constexpr MaterialFeatures kAllButSpecularGlossiness = ~BitOf(Slot::SpecularGlossiness);
+
 inline constexpr auto kModels = std::to_array<ModelInfo>({
-    {ShadingModel::MetallicRoughness, "metallic-roughness", nullptr, kTextureBits, true},
+    {ShadingModel::MetallicRoughness, "metallic-roughness", nullptr, kAllButSpecularGlossiness, true},
+    {ShadingModel::SpecularGlossiness, "specular-glossiness", "KHR_materials_pbrSpecularGlossiness",
+     ~kMetallicRoughnessOnly, true},
     {ShadingModel::Unlit, "unlit", "KHR_materials_unlit", BitOf(Slot::BaseColor), false},
 });
 

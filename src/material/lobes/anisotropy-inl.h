@@ -1,0 +1,82 @@
+// Microfacets that are rougher along the tangent than across it (KHR_materials_anisotropy): alpha_t = mix(alpha, 1,
+// strength^2) along the tangent, alpha_b = alpha across it.
+//
+// The albedo tables are those of equal roughness; an effective roughness is looked up in them, which depends on the
+// direction of the view (or light) around the normal.
+
+#if defined(FACET_MATERIAL_LOBES_ANISOTROPY_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef FACET_MATERIAL_LOBES_ANISOTROPY_INL_H_
+#undef FACET_MATERIAL_LOBES_ANISOTROPY_INL_H_
+#else
+#define FACET_MATERIAL_LOBES_ANISOTROPY_INL_H_
+#endif
+
+#include "material/lobes/microfacets-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace facet {
+namespace HWY_NAMESPACE {
+
+// The direction along which a surface is rougher, and by how much.
+template <class T>
+struct AnisotropyInputs {
+  Vec3<T> tangent, bitangent;  // unit, perpendicular to the shading normal and to one another
+  T strength{};                // [0, 1]
+};
+
+template <class T>
+struct AnisotropicMicrofacets {
+  Vec3<T> tangent, bitangent;
+  T alpha_t{}, alpha_b{};
+  T perceptual_roughness{};  // across the tangent, clamped
+  T strength{};
+
+  HWY_INLINE AnisotropicMicrofacets() {}  // for a lobe that a material does not have
+
+  HWY_INLINE AnisotropicMicrofacets(T roughness, const AnisotropyInputs<T>& in)
+      : tangent(in.tangent), bitangent(in.bitangent), strength(in.strength) {
+    perceptual_roughness = Clamp(roughness, T(kMinPerceptualRoughness), T(1.0f));
+    alpha_b = AlphaFromPerceptualRoughness(perceptual_roughness);
+    alpha_t = Mix(alpha_b, T(1.0f), strength * strength);
+  }
+
+  // The roughness of the surface that loses about as much energy, seen from `direction` (unit).
+  HWY_INLINE T AlbedoRoughness(const Vec3<T>& direction) const {
+    const T t = Dot(tangent, direction), b = Dot(bitangent, direction);
+    const T n2 = Max(T(1.0f) - t * t - b * b, T(0.0f)) * T(0.5f);
+    const T alpha2 = alpha_t * alpha_t * (t * t + n2) + alpha_b * alpha_b * (b * b + n2);
+    return Sqrt(Sqrt(alpha2));
+  }
+  HWY_INLINE T AverageAlbedoRoughness() const { return Sqrt(Sqrt((alpha_t * alpha_t + alpha_b * alpha_b) * T(0.5f))); }
+
+  HWY_INLINE T Single(const SurfaceView<T>& at, const Vec3<T>& light, const Incidence<T>& from) const {
+    const T distribution = DistributionGgxAnisotropic(Dot(tangent, from.half), Dot(bitangent, from.half),
+                                                      Max(Dot(at.normal, from.half), T(0.0f)), alpha_t, alpha_b);
+    const T from_view = from.n_dot_l * Length(at.view, at.n_dot_v),
+            from_light = at.n_dot_v * Length(light, from.n_dot_l);
+    return distribution * T(0.5f) / (from_view + from_light);
+  }
+
+  // As in the extension's text: the reflection about a normal that is bent towards the view across the tangent.
+  HWY_INLINE Vec3<T> DominantDirection(const SurfaceView<T>& at) const {
+    const Vec3<T> across = Cross(Cross(bitangent, at.view), bitangent);
+    const T straight = T(1.0f) - strength * (T(1.0f) - perceptual_roughness);
+    const T straight2 = straight * straight;
+    const Vec3<T> normal =
+        NormalizeOr(Mix(NormalizeOr(across, at.normal), at.normal, straight2 * straight2), at.normal);
+    return normal * (T(2.0f) * Dot(normal, at.view)) - at.view;
+  }
+
+ private:
+  // Of the direction, stretched by the roughness: the term of Smith's masking.
+  HWY_INLINE T Length(const Vec3<T>& direction, T n_dot) const {
+    const T t = alpha_t * Dot(tangent, direction), b = alpha_b * Dot(bitangent, direction);
+    return Sqrt(t * t + b * b + n_dot * n_dot);
+  }
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace facet
+HWY_AFTER_NAMESPACE();
+
+#endif

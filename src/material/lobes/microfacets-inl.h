@@ -1,0 +1,50 @@
+// The microfacets of a surface: how rough it is, apart from what it is made of. Two kinds have the same members:
+// Microfacets (equally rough in all directions) and AnisotropicMicrofacets (lobes/anisotropy-inl.h).
+
+#if defined(FACET_MATERIAL_LOBES_MICROFACETS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef FACET_MATERIAL_LOBES_MICROFACETS_INL_H_
+#undef FACET_MATERIAL_LOBES_MICROFACETS_INL_H_
+#else
+#define FACET_MATERIAL_LOBES_MICROFACETS_INL_H_
+#endif
+
+#include "material/lobes/lobe-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace facet {
+namespace HWY_NAMESPACE {
+
+template <class T>
+struct Microfacets {
+  T alpha{};                 // GGX's width
+  T perceptual_roughness{};  // clamped
+
+  HWY_INLINE Microfacets() {}  // for a lobe that a material does not have
+
+  HWY_INLINE explicit Microfacets(T roughness) {
+    perceptual_roughness = Clamp(roughness, T(kMinPerceptualRoughness), T(1.0f));
+    alpha = AlphaFromPerceptualRoughness(perceptual_roughness);
+  }
+
+  // The single scattering without its Fresnel term: D V, in 1/steradian.
+  HWY_INLINE T Single(const SurfaceView<T>& at, const Incidence<T>& from) const {
+    return DistributionGgx(at.normal, from.half, alpha) * VisibilitySmith(from.n_dot_l, at.n_dot_v, alpha);
+  }
+
+  // The dominant direction of the reflection. It lies between the mirror direction and the normal, because masking and
+  // the cosine remove more of its grazing side (Lagarde and de Rousiers, 2014, Moving Frostbite to Physically Based
+  // Rendering, section 4.9.3). The weight of the normal is close to the best under soft lamps
+  // (src/light/fit_dominant_direction.py measures it), and a little less on smoother surfaces, which suits the small
+  // suns of photographed skies better. Not normalised.
+  HWY_INLINE Vec3<T> DominantDirection(const SurfaceView<T>& at) const {
+    const Vec3<T> mirror = at.normal * (T(2.0f) * Dot(at.normal, at.view)) - at.view;
+    const T to_normal = alpha * alpha * (T(1.5f) + alpha * (T(0.35f) - alpha * T(0.95f)));
+    return Mix(mirror, at.normal, to_normal);
+  }
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace facet
+HWY_AFTER_NAMESPACE();
+
+#endif
