@@ -169,12 +169,17 @@ HWY_INLINE Vec3<T> EvaluateEnvironment(const Closure<T, kPossible>& c, const Mat
   return radiance;
 }
 
+// The emission of the base that the layers above let pass.
+template <class T, MaterialFeatures kPossible>
+HWY_INLINE Vec3<T> EmissionThroughLayers(const Closure<T, kPossible>& c, const MaterialInputs<T>& in) {
+  return c.Has(kClearcoat) ? in.emissive * c.clearcoat.EnergyLeft() : in.emissive;
+}
+
 // Radiance towards the eye. `view`: unit, from the surface to the eye; `position`: relative to the eye, world axes.
 template <class T, MaterialFeatures kPossible = kAllLobes, class Lighting>
 HWY_INLINE Vec3<T> ShadeClosure(const MaterialInputs<T>& in, Vec3<T> view, Vec3<T> position, const Lighting& lighting) {
   const Closure<T, kPossible> closure(in, view, lighting);
-  Vec3<T> radiance = in.emissive;
-  if (closure.Has(kClearcoat)) radiance = radiance * closure.clearcoat.EnergyLeft();
+  Vec3<T> radiance = EmissionThroughLayers(closure, in);
   if (lighting.HasEnvironment()) radiance += EvaluateEnvironment(closure, in, lighting) * in.occlusion;
   const int light_count = lighting.LightCount();
   for (int i = 0; i < light_count; ++i) {

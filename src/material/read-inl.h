@@ -122,9 +122,15 @@ HWY_INLINE MaterialInputs<T> ReadInputs(const Source& from, const Vec4<T>& base,
     occlusion = occlusion + T(f.occlusion_strength) * (from.template Read<kR>(Slot::Occlusion).x - T(1.0f));
   }
   const Vec3<T> emissive = from.Has(kEmission) ? ReadEmission<T>(from) : Vec3<T>{T(0.0f), T(0.0f), T(0.0f)};
-  MaterialInputs<T> in{
-      Xyz(base), base.w,   metallic, perceptual_roughness, MappedNormal<T>(from, Slot::Normal, f.normal_scale),
-      occlusion, emissive, features};
+  MaterialInputs<T> in{};
+  in.base_color = Xyz(base);
+  in.alpha_coverage = base.w;
+  in.metallic = metallic;
+  in.perceptual_roughness = perceptual_roughness;
+  in.normal = MappedNormal<T>(from, Slot::Normal, f.normal_scale);
+  in.occlusion = occlusion;
+  in.emissive = emissive;
+  in.lobes = features;
   const auto has = [&](MaterialFeatures lobe) HWY_ATTR { return (kPossible & lobe) != 0 && (features & lobe) != 0; };
   if (has(kSpecular | kIor)) in.dielectric = ReadDielectric<T>(from);
   if (has(kClearcoat)) in.clearcoat = ReadClearcoat<T>(from);

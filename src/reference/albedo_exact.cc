@@ -182,6 +182,18 @@ AlbedoRow AlbedoSurface::Row(double perceptual_roughness) const {
   return row;
 }
 
+ExactAlbedo AlbedoSurface::At(double n_dot_v, double perceptual_roughness) const {
+  const auto [panel, x] = FindPanel(1.0 - Log(perceptual_roughness) / kFirstLog, kPanels);
+  const auto t = ChebyshevAt<kNodes>(x);
+  ExactAlbedo sum;
+  for (int i = 0; i < kNodes; ++i) {
+    const ExactAlbedo at = coefficients_[std::size_t(panel * kNodes + i)].At(n_dot_v);
+    sum.a += at.a * t[std::size_t(i)];
+    sum.b += at.b * t[std::size_t(i)];
+  }
+  return sum;
+}
+
 AlbedoSurface::AlbedoSurface() {
   constexpr int kColumns = AlbedoRow::kPanels, kOrder = AlbedoRow::kNodes;
   // First, a row for each node over roughness.

@@ -45,6 +45,8 @@ class AlbedoSurface {
 
   // `perceptual_roughness` in [kMinPerceptualRoughness, 1].
   AlbedoRow Row(double perceptual_roughness) const;
+  // The same at one cosine, where the roughness is another each time.
+  ExactAlbedo At(double n_dot_v, double perceptual_roughness) const;
 
  private:
   AlbedoSurface();

@@ -12,6 +12,11 @@ glm::dvec3 MetallicRoughness(const ExactMaterial& material, const glm::dvec3& ba
   return RadianceTowardEye(material, base_color, point, light, run);
 }
 
+glm::dvec3 SpecularGlossiness(const ExactMaterial& material, const glm::dvec3& base_color, const SurfacePoint& point,
+                              const ExactLight& light, const SampleRun& run) {
+  return RadianceTowardEye(material, base_color, point, light, run);
+}
+
 glm::dvec3 Unlit(const ExactMaterial& material, const glm::dvec3& base_color, const SurfacePoint& point,
                  const ExactLight&, const SampleRun&) {
   const ExactSource source{material, point};

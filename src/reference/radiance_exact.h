@@ -1,4 +1,4 @@
-// The metallic-roughness material under all the light of a scene, by integration.
+// The material under all the light of a scene, by integration.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -22,7 +22,7 @@ struct ExactLight {
 
 // Which random numbers an estimate uses: pairs [pair, pair + kPairsOfRadiance) of the sequence, points
 // [index, index + environment_samples).
-inline constexpr std::uint32_t kPairsOfRadiance = 3;
+inline constexpr std::uint32_t kPairsOfRadiance = 5;
 struct SampleRun {
   const SampleSequence& sequence;
   std::uint32_t pair, index;
@@ -30,9 +30,9 @@ struct SampleRun {
 
 // Radiance towards the eye. Emission and punctual lights are exact. The environment's share is an unbiased estimate by
 // multiple importance sampling (Veach and Guibas, 1995, Optimally Combining Sampling Techniques for Monte Carlo
-// Rendering: balance heuristic) of the environment's luminance, of the specular lobe's visible normals (Heitz, 2018,
-// Sampling the GGX Distribution of Visible Normals; by Dupuy and Benyoub, 2023, Sampling Visible GGX Normals with
-// Spherical Caps) and of the cosine.
+// Rendering: balance heuristic) of the environment's luminance, of the visible normals of the specular lobe and of the
+// clear coat (Heitz, 2018, Sampling the GGX Distribution of Visible Normals; by Dupuy and Benyoub, 2023, Sampling
+// Visible GGX Normals with Spherical Caps) and of the cosine, on both sides where the surface transmits diffusely.
 //
 // Of the model's limits, kMinPerceptualRoughness holds for the environment as well: what is smoother reflects it in a
 // lobe 0.2 degrees wide, where the rasterizer shows a mirror. `base_color`: the material's at this point.
