@@ -156,9 +156,10 @@ HWY_INLINE Vec3<T> EvaluateClosure(const Closure<T, kPossible>& c, Vec3<T> direc
 template <class T, MaterialFeatures kPossible, class Lighting>
 HWY_INLINE Vec3<T> EvaluateEnvironment(const Closure<T, kPossible>& c, const MaterialInputs<T>& in,
                                        const Lighting& lighting) {
-  const Vec3<T> toward =
-      c.Has(kAnisotropy) ? c.anisotropic.DominantDirection(c.at) : c.microfacets.DominantDirection(c.at);
-  EnvironmentTerms<T> sum = c.specular.Environment(lighting.Prefiltered(toward, in.perceptual_roughness));
+  const Vec3<T> prefiltered =
+      c.Has(kAnisotropy) ? c.anisotropic.Prefiltered(c.at, in.perceptual_roughness, lighting)
+                         : lighting.Prefiltered(c.microfacets.DominantDirection(c.at), in.perceptual_roughness);
+  EnvironmentTerms<T> sum = c.specular.Environment(prefiltered);
   if (c.Has(kDiffuseLobe)) sum.of_irradiance_over_pi += c.diffuse.Environment().of_irradiance_over_pi;
   Vec3<T> radiance = sum.radiance + lighting.IrradianceOverPi(c.at.normal) * sum.of_irradiance_over_pi;
   if (c.Has(kDiffuseTransmission)) radiance += c.diffuse_transmission.Environment(c.at, c.diffuse, lighting);

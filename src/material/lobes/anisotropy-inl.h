@@ -57,17 +57,38 @@ struct AnisotropicMicrofacets {
     return distribution * T(0.5f) / (from_view + from_light);
   }
 
-  // As in the extension's text: the reflection about a normal that is bent towards the view across the tangent.
-  HWY_INLINE Vec3<T> DominantDirection(const SurfaceView<T>& at) const {
-    const Vec3<T> across = Cross(Cross(bitangent, at.view), bitangent);
-    const T straight = T(1.0f) - strength * (T(1.0f) - perceptual_roughness);
-    const T straight2 = straight * straight;
-    const Vec3<T> normal =
-        NormalizeOr(Mix(NormalizeOr(across, at.normal), at.normal, straight2 * straight2), at.normal);
-    return normal * (T(2.0f) * Dot(normal, at.view)) - at.view;
+  // The environment as these microfacets blur it: a mean over reflections about normals that are tilted along the
+  // tangent, each blurred as the surface is rough across it. The tilts have equal shares of GGX's slopes; their weights
+  // are those of visible normals, and of the light that is not shadowed. `unclamped_roughness`: the material's.
+  template <class Lighting>
+  HWY_INLINE Vec3<T> Prefiltered(const SurfaceView<T>& at, T unclamped_roughness, const Lighting& lighting) const {
+    constexpr int kTilts = 16;
+    const T spread = Sqrt(Max(alpha_t * alpha_t - alpha_b * alpha_b, T(0.0f)));
+    // The gaps between tilts are filled by blur, which is needed less where the surface itself is rough.
+    const T gap = spread * T(kGapShare / kTilts);
+    const T square = unclamped_roughness * unclamped_roughness;
+    const T roughness = Sqrt(Sqrt(square * square + gap * gap));
+    const T view_t = Dot(tangent, at.view);
+    const T to_normal = ToNormal(alpha_b);
+    Vec3<T> sum{};
+    T weights(0.0f);
+    for (int k = 0; k < kTilts; ++k) {
+      const float share = static_cast<float>(2 * k + 1 - kTilts) / kTilts;
+      const T slope = spread * T(share) / Sqrt(T(1.0f - share * share));
+      const T seen = Max(at.n_dot_v + view_t * slope, T(0.0f));
+      const Vec3<T> half = at.normal + tangent * slope;
+      const Vec3<T> light = half * (T(2.0f) * seen / (slope * slope + T(1.0f))) - at.view;
+      const T n_dot_l = Dot(at.normal, light);
+      const T weight = Select(n_dot_l > T(0.0f), seen * n_dot_l / (n_dot_l + Length(light, n_dot_l)), T(0.0f));
+      sum += lighting.Prefiltered(Mix(light, at.normal, to_normal), roughness) * weight;
+      weights += weight;
+    }
+    return sum / Max(weights, T(1e-20f));
   }
 
  private:
+  static constexpr float kGapShare = 1.0f;
+
   // Of the direction, stretched by the roughness: the term of Smith's masking.
   HWY_INLINE T Length(const Vec3<T>& direction, T n_dot) const {
     const T t = alpha_t * Dot(tangent, direction), b = alpha_b * Dot(bitangent, direction);

@@ -14,6 +14,15 @@ HWY_BEFORE_NAMESPACE();
 namespace facet {
 namespace HWY_NAMESPACE {
 
+// The weight of the normal in the dominant direction of a reflection, because masking and the cosine remove more of a
+// rough lobe's grazing side (Lagarde and de Rousiers, 2014, Moving Frostbite to Physically Based Rendering, section
+// 4.9.3). It is close to the best under soft lamps (src/light/fit_dominant_direction.py measures it), and a little less
+// on smoother surfaces, which suits the small suns of photographed skies better.
+template <class T>
+HWY_INLINE T ToNormal(T alpha) {
+  return alpha * alpha * (T(1.5f) + alpha * (T(0.35f) - alpha * T(0.95f)));
+}
+
 template <class T>
 struct Microfacets {
   T alpha{};                 // GGX's width
@@ -31,15 +40,10 @@ struct Microfacets {
     return DistributionGgx(at.normal, from.half, alpha) * VisibilitySmith(from.n_dot_l, at.n_dot_v, alpha);
   }
 
-  // The dominant direction of the reflection. It lies between the mirror direction and the normal, because masking and
-  // the cosine remove more of its grazing side (Lagarde and de Rousiers, 2014, Moving Frostbite to Physically Based
-  // Rendering, section 4.9.3). The weight of the normal is close to the best under soft lamps
-  // (src/light/fit_dominant_direction.py measures it), and a little less on smoother surfaces, which suits the small
-  // suns of photographed skies better. Not normalised.
+  // The dominant direction of the reflection. It lies between the mirror direction and the normal. Not normalised.
   HWY_INLINE Vec3<T> DominantDirection(const SurfaceView<T>& at) const {
     const Vec3<T> mirror = at.normal * (T(2.0f) * Dot(at.normal, at.view)) - at.view;
-    const T to_normal = alpha * alpha * (T(1.5f) + alpha * (T(0.35f) - alpha * T(0.95f)));
-    return Mix(mirror, at.normal, to_normal);
+    return Mix(mirror, at.normal, ToNormal(alpha));
   }
 };
 
