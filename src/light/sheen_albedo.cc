@@ -1,28 +1,87 @@
-#include "light/sheen_albedo.h"
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "light/sheen_albedo.cc"
+#include "hwy/foreach_target.h"
 
+#include "facet/shader/dispatch.h"
+#include "light/sheen_albedo.h"
+#include "material/lobes/sheen-inl.h"
+
+#ifndef FACET_LIGHT_SHEEN_COLUMN
+#define FACET_LIGHT_SHEEN_COLUMN
+namespace facet {
+
+// E at one n_dot_v is the integral of D V n_dot_l dl over n_dot_l = z and the azimuth. sin(theta_h) at its nodes does
+// not depend on roughness, so one logarithm of it serves all roughnesses. Number: float for lanes, or double.
+template <class Number>
+struct SheenColumn {
+  static constexpr int kPolar = 24, kAzimuth = 16;
+  Number n_dot_v;
+  Number z[kPolar], z_weight[kPolar], azimuth_weight[kAzimuth];
+  Number log2_sin2[kPolar * kAzimuth];  // of sin(theta_h)^2
+  const Number* roughness;              // SheenTable::kRows of them for lanes, else one
+  Number* albedo;                       // E for each
+};
+
+}  // namespace facet
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace facet {
+namespace HWY_NAMESPACE {
+
+template <class T, class Number>
+HWY_INLINE T IntegrateSheen(const SheenColumn<Number>& column, T roughness) {
+  const T alpha = AlphaFromPerceptualRoughness(roughness), inverse_alpha = T(1.0f) / alpha, n_dot_v(column.n_dot_v);
+  const CharlieMasking<T> masking(alpha);
+  const T one_and_lambda_of_view = T(1.0f) + masking.Lambda(n_dot_v);
+  T sum = T(0.0f);
+  for (int i = 0; i < column.kPolar; ++i) {
+    T ring = T(0.0f);
+    for (int j = 0; j < column.kAzimuth; ++j) {
+      const T log2_sin2(column.log2_sin2[i * column.kAzimuth + j]);
+      ring += DistributionCharlieOfLog2(log2_sin2, inverse_alpha) * T(column.azimuth_weight[j]);
+    }
+    sum += ring * T(column.z_weight[i]) / (one_and_lambda_of_view + masking.Lambda(T(column.z[i])));
+  }
+  return sum / (T(4.0f) * n_dot_v);
+}
+
+void IntegrateSheenColumn(const SheenColumn<float>& column) {
+  static_assert(SheenTable::kRows % kMaxLanes == 0);
+  for (int row = 0; row < SheenTable::kRows; row += static_cast<int>(LaneCount())) {
+    Store(IntegrateSheen(column, LoadFloat(column.roughness + row)), column.albedo + row);
+  }
+}
+
+void IntegrateSheenPoint(const SheenColumn<double>& column) {
+  *column.albedo = IntegrateSheen(column, *column.roughness);
+}
+
+static_assert(SheenTable::kFirstRow * SheenTable::kFirstRow * SheenTable::kFirstRow * SheenTable::kFirstRow <=
+              kMinSheenRoughness);
+
+}  // namespace HWY_NAMESPACE
+}  // namespace facet
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
 #include <algorithm>
 #include <cmath>
 #include <memory>
 
 #include "base/parallel.h"
-#include "material/lobes/sheen-inl.h"
 #include "math/elementary.h"
 
-HWY_BEFORE_NAMESPACE();
 namespace facet {
 namespace {
 
-namespace lanes = HWY_NAMESPACE;
+FACET_EXPORT(IntegrateSheenColumn);
+FACET_EXPORT(IntegrateSheenPoint);
 
-constexpr int kPolar = 24;
-constexpr int kAzimuth = 16;
 constexpr double kPiDouble = 3.14159265358979324;
 
-static_assert(SheenTable::kFirstRow * SheenTable::kFirstRow * SheenTable::kFirstRow * SheenTable::kFirstRow <=
-              lanes::kMinSheenRoughness);
-
-// Midpoints of even steps in a variable s that reaches 0 and 1 with two vanishing derivatives, 6 s^5 - 15 s^4 + 10 s^3,
-// so that the midpoint rule converges fast whatever the integrand does at the ends.
+// Midpoints of even steps in a variable s, of which 6 s^5 - 15 s^4 + 10 s^3 reaches 0 and 1 with two vanishing
+// derivatives, so that the midpoint rule converges fast whatever the integrand does at the ends.
 struct Node {
   double value, weight;
 };
@@ -31,44 +90,33 @@ Node SmoothStep(int i, int count) {
   return {s * s * s * (10.0 + s * (6.0 * s - 15.0)), 30.0 * (s * s) * (rest * rest) / count};
 }
 
-// E at one n_dot_v for many roughnesses: the integral of D V n_dot_l dl over n_dot_l = z and the azimuth.
-//
-// sin(theta_h)^2 = q / (q + (n_dot_v + z)^2), with q the square of the length of view + light along the surface, has no
-// cancellation. It does not depend on roughness, so its logarithm serves all of them.
-void IntegrateColumn(double n_dot_v, const double* roughness, int count, double* out) {
-  double cosine_plus_one[kAzimuth], azimuth_weight[kAzimuth];
-  for (int j = 0; j < kAzimuth; ++j) {
-    const Node azimuth = SmoothStep(j, kAzimuth);
+// sin(theta_h)^2 = q / (q + (n_dot_v + z)^2), with q the square of the length of view + light along the surface, which
+// is computed without cancellation.
+template <class Number>
+SheenColumn<Number> MakeColumn(double n_dot_v, const Number* roughness, Number* albedo) {
+  SheenColumn<Number> column{};
+  column.n_dot_v = static_cast<Number>(n_dot_v);
+  column.roughness = roughness;
+  column.albedo = albedo;
+  double cosine_plus_one[SheenColumn<Number>::kAzimuth];
+  for (int j = 0; j < column.kAzimuth; ++j) {
+    const Node azimuth = SmoothStep(j, column.kAzimuth);
     cosine_plus_one[j] = 1.0 + Cos(kPiDouble * azimuth.value);
-    azimuth_weight[j] = 2.0 * kPiDouble * azimuth.weight;  // both halves of the circle
+    column.azimuth_weight[j] = static_cast<Number>(2.0 * kPiDouble * azimuth.weight);  // both halves of the circle
   }
-  double z[kPolar], z_weight[kPolar], sin2[kPolar * kAzimuth];
   const double sin_v = std::sqrt(std::max(1.0 - n_dot_v * n_dot_v, 0.0));
-  for (int i = 0; i < kPolar; ++i) {
-    const Node polar = SmoothStep(i, kPolar);
-    z[i] = polar.value * polar.value;  // the lobe lies near the horizon
-    z_weight[i] = 2.0 * polar.value * polar.weight;
-    const double sin_l = std::sqrt(1.0 - z[i] * z[i]);
-    const double difference = sin_v - sin_l, upwards = n_dot_v + z[i];
-    for (int j = 0; j < kAzimuth; ++j) {
+  for (int i = 0; i < column.kPolar; ++i) {
+    const Node polar = SmoothStep(i, column.kPolar);
+    const double z = polar.value * polar.value;  // the lobe lies near the horizon
+    const double sin_l = std::sqrt(1.0 - z * z), difference = sin_v - sin_l, upwards = n_dot_v + z;
+    column.z[i] = static_cast<Number>(z);
+    column.z_weight[i] = static_cast<Number>(2.0 * polar.value * polar.weight);
+    for (int j = 0; j < column.kAzimuth; ++j) {
       const double q = difference * difference + 2.0 * sin_v * sin_l * cosine_plus_one[j];
-      sin2[i * kAzimuth + j] = q / (q + upwards * upwards);
+      column.log2_sin2[i * column.kAzimuth + j] = static_cast<Number>(Log2(q / (q + upwards * upwards)));
     }
   }
-  for (int k = 0; k < count; ++k) {
-    const double alpha = roughness[k] * roughness[k];
-    const lanes::CharlieMasking<double> masking(alpha);
-    const double lambda_of_view = masking.Lambda(n_dot_v);
-    double sum = 0.0;
-    for (int i = 0; i < kPolar; ++i) {
-      double ring = 0.0;
-      for (int j = 0; j < kAzimuth; ++j) {
-        ring += lanes::DistributionCharlie(sin2[i * kAzimuth + j], 1.0 / alpha) * azimuth_weight[j];
-      }
-      sum += ring * z_weight[i] / (1.0 + lambda_of_view + masking.Lambda(z[i]));
-    }
-    out[k] = sum / (4.0 * n_dot_v);
-  }
+  return column;
 }
 
 double FourthPower(double x) { return (x * x) * (x * x); }
@@ -79,23 +127,26 @@ double Spaced(float first, int i, int count) { return double(first) + (1.0 - dou
 
 double IntegrateSheenAlbedo(double n_dot_v, double perceptual_roughness) {
   double albedo = 0.0;
-  IntegrateColumn(n_dot_v, &perceptual_roughness, 1, &albedo);
+  FACET_DISPATCH(IntegrateSheenPoint)(MakeColumn(n_dot_v, &perceptual_roughness, &albedo));
   return albedo;
 }
 
 void ComputeSheenTable(SheenTable* table) {
   constexpr int kRows = SheenTable::kRows, kColumns = SheenTable::kColumns;
-  double roughness[kRows];
-  for (int row = 0; row < kRows; ++row) roughness[row] = FourthPower(Spaced(SheenTable::kFirstRow, row, kRows));
+  float roughness[kRows];
+  for (int row = 0; row < kRows; ++row) {
+    roughness[row] = static_cast<float>(FourthPower(Spaced(SheenTable::kFirstRow, row, kRows)));
+  }
+  const auto integrate = IntegrateSheenColumnForTarget(ActiveTarget());
   ParallelFor(kColumns, 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t column = begin; column < end; ++column) {
-      double albedo[kRows];
+      float albedo[kRows];
       const double n_dot_v = FourthPower(Spaced(SheenTable::kFirstColumn, static_cast<int>(column), kColumns));
-      IntegrateColumn(n_dot_v, roughness, kRows, albedo);
+      integrate(MakeColumn(n_dot_v, roughness, albedo));
       for (std::size_t row = 0; row + 1 < kRows; ++row) {
         float* out = table->albedo + 2 * (row * kColumns + column);
-        out[0] = static_cast<float>(albedo[row]);
-        out[1] = static_cast<float>(albedo[row + 1]);
+        out[0] = albedo[row];
+        out[1] = albedo[row + 1];
       }
     }
   });
@@ -111,4 +162,4 @@ const SheenTable& SharedSheenTable() {
 }
 
 }  // namespace facet
-HWY_AFTER_NAMESPACE();
+#endif

@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "base/parallel.h"
+#include "facet/shader/dispatch.h"
 #include "light/lighting-inl.h"
 #include "material/lobes/sheen-inl.h"
 
@@ -60,9 +61,9 @@ TEST(SheenAlbedo, IntegralAgreesWithOneOfManyMorePoints) {
   double most = 0.0;
   for (double roughness : {0.07, 0.09, 0.15, 0.3, 0.55, 0.8, 1.0}) {
     for (double n_dot_v : {1e-4, 0.0021, 0.02, 0.05, 0.13, 0.4, 0.75, 1.0}) {
-      const double exact = Integrate(n_dot_v, roughness, 300, 300);
+      const double exact = Integrate(n_dot_v, roughness, 400, 300);
       const double error = Error(IntegrateSheenAlbedo(n_dot_v, roughness), exact);
-      EXPECT_NEAR(error, 0.0, 3e-5) << roughness << " " << n_dot_v;
+      EXPECT_NEAR(error, 0.0, 5e-5) << roughness << " " << n_dot_v;
       most = std::max(most, std::fabs(error));
     }
   }
@@ -127,6 +128,21 @@ TEST(SheenAlbedo, SameBitsForAnyNumberOfThreads) {
     auto table = std::make_unique<SheenTable>();
     RunWithThreads(threads, [&] { ComputeSheenTable(table.get()); });
     EXPECT_EQ(std::memcmp(table.get(), &SharedSheenTable(), sizeof(SheenTable)), 0) << threads;
+  }
+}
+
+TEST(SheenAlbedo, SameBitsOnEveryInstructionSet) {
+  auto scalar = std::make_unique<SheenTable>(), other = std::make_unique<SheenTable>();
+  const auto compute = [](Target target, SheenTable* table) {
+    const ScopedTarget forced(target);
+    ComputeSheenTable(table);
+    return IntegrateSheenAlbedo(0.2, 0.4);
+  };
+  const double expected = compute(Target::Scalar, scalar.get());
+  for (Target target : {Target::Sse4, Target::Avx2, Target::Avx3, Target::Neon}) {
+    if (!TargetIsAvailable(target)) continue;
+    EXPECT_EQ(compute(target, other.get()), expected);
+    EXPECT_EQ(std::memcmp(scalar.get(), other.get(), sizeof(SheenTable)), 0) << TargetName(target);
   }
 }
 

@@ -2,13 +2,13 @@
 // under it. color * D * V, without Fresnel, where D and V are those of Estevez and Kulla, 2017, Production Friendly
 // Microfacet Sheen BRDF, in the form of the extension's text:
 //    D = (2 + 1/alpha) sin(theta_h)^(1/alpha) / (2 pi),   V = 1 / ((1 + Lambda(v) + Lambda(l)) 4 n_dot_v n_dot_l),
-// alpha being the square of the perceptual roughness. The paper also softens the terminator (its equation 4, which
-// raises Lambda(l) to a power that depends on the light); the extension's text does not, and neither do we: the text
-// is what other renderers follow, and without it D V is reciprocal.
+// alpha being the square of the perceptual roughness. The paper also softens the terminator by raising Lambda(l) to a
+// power that depends on n_dot_l. The extension's text does not, and neither do we: other renderers follow the text, and
+// D V is then reciprocal.
 //
 // What lies under the sheen receives what the sheen leaves, 1 - max(color) E(v), with E the albedo of D V
-// (light/sheen_albedo.h). The text also offers the lesser of that and the same for the light's direction, but then a
-// white furnace loses up to what the view's term alone keeps, and each light costs one more lookup.
+// (light/sheen_albedo.h). The text also offers the lesser of that and the same for the light's direction, which would
+// darken a white furnace and cost one more lookup for each light.
 //
 // E exceeds 1 at grazing views of smooth sheen: below n_dot_v 0.055 at roughness 0.07 (2.94 at most), below 0.026 at
 // 0.2, and nowhere from 0.26 on. The fit of Lambda masks too little there. D V is divided by max(1, E(v)), so that the
@@ -28,19 +28,24 @@ HWY_BEFORE_NAMESPACE();
 namespace facet {
 namespace HWY_NAMESPACE {
 
-// The least perceptual roughness of sheen. D's exponent is then 204, which multiplies the rounding error of sin(theta_h)
-// in float, so that D has still four digits, and the table of E, which changes ever faster in n_dot_v, stays small.
-// Smoother sheen would be a rim thinner than 1 % of a sphere's radius. KHR_materials_sheen's default is 0.
+// The least perceptual roughness of sheen, which KHR_materials_sheen sets to 0 by default. At 0.07 D's exponent is 204.
+// It multiplies the rounding error of sin(theta_h), so that in float the lobe is off by 3e-5 of itself (measured in
+// tests/material), and it keeps E, whose rise towards grazing views is about as wide as the roughness, within a small
+// table. Smoother sheen than this differs from it in a rim of 1 % of a sphere's radius.
 inline constexpr float kMinSheenRoughness = 0.07f;
 
-// Distribution of fibres, in 1/steradian; the integral of D(h) n_dot_h over the hemisphere is 1. Estevez and Kulla,
-// equation 2. `sin2_n_h` is 1 - n_dot_h^2, from the cross product, which is precise where n and h nearly coincide.
+// Distribution of fibres, in 1/steradian; the integral of D(h) n_dot_h over the hemisphere is 1. `sin2_n_h` is 1 -
+// n_dot_h^2, from the cross product, which is precise where n and h nearly coincide.
+template <class T>
+HWY_INLINE T DistributionCharlieOfLog2(T log2_sin2_n_h, T inverse_alpha) {
+  return (T(2.0f) + inverse_alpha) * T(0.5f * kInversePi) * Exp2(log2_sin2_n_h * (T(0.5f) * inverse_alpha));
+}
 template <class T>
 HWY_INLINE T DistributionCharlie(T sin2_n_h, T inverse_alpha) {
-  return (T(2.0f) + inverse_alpha) * T(0.5f * kInversePi) * Exp2(Log2(sin2_n_h) * (T(0.5f) * inverse_alpha));
+  return DistributionCharlieOfLog2(Log2(sin2_n_h), inverse_alpha);
 }
 
-// Lambda(cosine) of masking and shadowing. Estevez and Kulla, equation 3 and the table beside it:
+// Lambda(cosine) of masking and shadowing, as Estevez and Kulla fitted it:
 //    Lambda(x) = exp(L(x)) for x < 0.5, exp(2 L(0.5) - L(1 - x)) above, L(x) = a / (1 + b x^c) + d x + e,
 // with each constant interpolated by (1 - alpha)^2 between its values at alpha 1 and at 0.
 template <class T>
