@@ -40,7 +40,7 @@ HWY_INLINE void ReflectOne(const SheenTask& task, int first) {
   const LightingView<T> lighting(*task.lighting);
   const Vec3<T> normal = vector(4), view = vector(7), light = vector(10);
   const SurfaceView<T> at{normal, view, Clamp(Dot(normal, view), T(kMinNDotV), T(1.0f))};
-  const SheenLobe<T> lobe(at, vector(0), number(3), lighting);
+  const SheenLobe<T> lobe(at, {vector(0), number(3)}, lighting);
   Incidence<T> from{};
   from.n_dot_l = Clamp(Dot(normal, light), T(0.0f), T(1.0f));
   from.half = NormalizeOr(view + light, normal);

@@ -111,7 +111,7 @@ TEST(Sheen, ReflectsItsAlbedoUnderDirectionalLights) {
   for (double roughness : Roughnesses()) {
     for (double n_dot_v : kNDotV) {
       const SurfaceView<double> at = SeenFrom(n_dot_v);
-      const SheenLobe<double> lobe(at, {1.0, 0.5, 0.25}, roughness, lighting);
+      const SheenLobe<double> lobe(at, {{1.0, 0.5, 0.25}, roughness}, lighting);
       const Vec3<double> reflected = Reflected(lobe, at);
       EXPECT_NEAR(reflected.x, lobe.albedo, 0.003) << roughness << " " << n_dot_v;
       EXPECT_NEAR(reflected.x + lobe.EnergyLeft(), 1.0, 0.003) << roughness << " " << n_dot_v;
@@ -141,7 +141,7 @@ TEST(Sheen, ReflectsItsAlbedoInAConstantEnvironment) {
   for (double roughness : Roughnesses()) {
     for (double n_dot_v : kNDotV) {
       const SurfaceView<double> at = SeenFrom(n_dot_v);
-      const SheenLobe<double> lobe(at, {1.0, 0.5, 0.25}, roughness, lighting);
+      const SheenLobe<double> lobe(at, {{1.0, 0.5, 0.25}, roughness}, lighting);
       const lanes::EnvironmentTerms<double> terms = lobe.Environment(at, lighting);
       EXPECT_NEAR(terms.radiance.x, lobe.albedo, 1e-4 * lobe.albedo);
       EXPECT_NEAR(terms.radiance.y, lobe.albedo, 1e-4 * lobe.albedo);
@@ -157,7 +157,7 @@ TEST(Sheen, AlbedoAndEnergyLeftAreShares) {
   for (double roughness : Roughnesses()) {
     for (double n_dot_v : {1e-4, 3e-4, 0.001, 0.005, 0.05, 0.5, 1.0}) {
       for (float color : {0.0f, 0.7f, 1.0f}) {
-        const SheenLobe<float> lobe(SeenFrom(float(n_dot_v)), {0.1f * color, color, 0.5f * color}, float(roughness),
+        const SheenLobe<float> lobe(SeenFrom(float(n_dot_v)), {{0.1f * color, color, 0.5f * color}, float(roughness)},
                                     lighting);
         EXPECT_TRUE(lobe.albedo >= 0.0f && lobe.albedo <= 1.0f);
         EXPECT_EQ(lobe.EnergyLeft(), 1.0f - color * lobe.albedo);
@@ -178,8 +178,8 @@ TEST(Sheen, IsReciprocalWhereItIsNotBounded) {
     b.n_dot_v = 0.001 + 0.999 * uniform();
     b.view = Direction(b.n_dot_v, 2.0 * kPi * uniform());
     const Vec3<double> white = {1.0, 1.0, 1.0};
-    const double ab = SheenLobe<double>(a, white, roughness, lighting).Direct(a, From(a, b.view)).x;
-    const double ba = SheenLobe<double>(b, white, roughness, lighting).Direct(b, From(b, a.view)).x;
+    const double ab = SheenLobe<double>(a, {white, roughness}, lighting).Direct(a, From(a, b.view)).x;
+    const double ba = SheenLobe<double>(b, {white, roughness}, lighting).Direct(b, From(b, a.view)).x;
     EXPECT_NEAR(ab, ba, 1e-9 * ab);
   }
 }
@@ -191,7 +191,7 @@ TEST(Sheen, IsFiniteForExtremeInputs) {
   for (float roughness : {0.0f, 0.01f, 0.07f, 0.5f, 1.0f}) {
     for (float n_dot_v : {lanes::kMinNDotV, 0.01f, 0.5f, 1.0f}) {
       const SurfaceView<float> at = SeenFrom(n_dot_v);
-      const SheenLobe<float> lobe(at, {1.0f, 1.0f, 1.0f}, roughness, lighting);
+      const SheenLobe<float> lobe(at, {{1.0f, 1.0f, 1.0f}, roughness}, lighting);
       std::vector<Vec3<float>> directions = {at.view, -at.view, {-at.view.x, 0.0f, at.view.z}, at.normal, -at.normal};
       for (float n_dot_l : {0.0f, 1e-20f, 1e-7f, 1e-4f, 0.3f}) {
         for (float azimuth : {0.0f, 1.5f, 3.14159274f}) directions.push_back(Direction(n_dot_l, azimuth));
@@ -215,7 +215,7 @@ TEST(Sheen, RoughnessIsClamped) {
   const Incidence<double> from = From(at, Direction(0.04, 0.3));
   const Vec3<double> white = {1.0, 1.0, 1.0};
   const auto direct = [&](double roughness) {
-    return SheenLobe<double>(at, white, roughness, lighting).Direct(at, from).x;
+    return SheenLobe<double>(at, {white, roughness}, lighting).Direct(at, from).x;
   };
   EXPECT_EQ(direct(0.0), direct(double(lanes::kMinSheenRoughness)));
   EXPECT_EQ(direct(-1.0), direct(0.05));
@@ -237,8 +237,8 @@ TEST(Sheen, FloatAgreesWithDouble) {
     const Vec3<float> light = Direction(1e-3f + 0.999f * uniform() * uniform(), 6.28318531f * uniform());
     const auto widen = [](Vec3<float> v) { return Vec3<double>{double(v.x), double(v.y), double(v.z)}; };
     const SurfaceView<double> at_double = {widen(at.normal), widen(at.view), double(n_dot_v)};
-    const SheenLobe<float> lobe(at, {1.0f, 1.0f, 1.0f}, roughness, in_float);
-    const SheenLobe<double> exact(at_double, {1.0, 1.0, 1.0}, double(roughness), in_double);
+    const SheenLobe<float> lobe(at, {{1.0f, 1.0f, 1.0f}, roughness}, in_float);
+    const SheenLobe<double> exact(at_double, {{1.0, 1.0, 1.0}, double(roughness)}, in_double);
     const double expected = exact.Direct(at_double, From(at_double, widen(light))).x;
     const double error = std::fabs(double(lobe.Direct(at, From(at, light)).x) - expected);
     // Where D is 1e-12 of its peak it still has four digits.

@@ -52,6 +52,8 @@ template <class T>
 struct CharlieMasking {
   T a{}, b{}, c{}, d{}, e{}, twice_at_half{};
 
+  HWY_INLINE CharlieMasking() {}  // for a lobe that a material does not have
+
   HWY_INLINE explicit CharlieMasking(T alpha) {
     const T rest = T(1.0f) - alpha, smooth = rest * rest;
     a = Mix(T(21.5473f), T(25.3245f), smooth);
@@ -74,6 +76,12 @@ struct CharlieMasking {
 };
 
 template <class T>
+struct SheenInputs {
+  Vec3<T> color;             // [0, 1]
+  T perceptual_roughness{};  // [0, 1]
+};
+
+template <class T>
 struct SheenLobe {
   Vec3<T> color;
   T perceptual_roughness{};  // clamped
@@ -83,12 +91,12 @@ struct SheenLobe {
   T albedo{};  // E at n_dot_v, at most 1
   T scale{};   // of D V n_dot_l (1 + Lambda(v) + Lambda(l)): 1 / (4 n_dot_v max(1, E))
 
-  // `sheen_color`: in [0, 1]. `lighting`: besides what material/closure-inl.h lists, SheenAlbedo(T n_dot_v, T
-  // perceptual_roughness), which is E, and may exceed 1.
+  HWY_INLINE SheenLobe() {}  // for a lobe that a material does not have
+
   template <class Lighting>
-  HWY_INLINE SheenLobe(const SurfaceView<T>& at, const Vec3<T>& sheen_color, T roughness, const Lighting& lighting)
-      : color(sheen_color),
-        perceptual_roughness(Clamp(roughness, T(kMinSheenRoughness), T(1.0f))),
+  HWY_INLINE SheenLobe(const SurfaceView<T>& at, const SheenInputs<T>& in, const Lighting& lighting)
+      : color(in.color),
+        perceptual_roughness(Clamp(in.perceptual_roughness, T(kMinSheenRoughness), T(1.0f))),
         masking(AlphaFromPerceptualRoughness(perceptual_roughness)) {
     inverse_alpha = T(1.0f) / AlphaFromPerceptualRoughness(perceptual_roughness);
     one_and_lambda_of_view = T(1.0f) + masking.Lambda(at.n_dot_v);
