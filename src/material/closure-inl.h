@@ -39,10 +39,12 @@ namespace HWY_NAMESPACE {
 
 inline constexpr MaterialFeatures kCoreLobes = kDiffuseLobe, kAllLobes = kDiffuseLobe | kLayerFeatures;
 
-// The inputs of the model at one point of a surface. Linear Rec. 709; world axes. Define one as `MaterialInputs<T>
-// in{};`: without the braces GCC calls a constructor that it generates for the baseline instruction set.
+// The inputs of the model at one point of a surface. Linear Rec. 709; world axes.
 template <class T>
 struct MaterialInputs {
+  // Each member on its own: clearing the whole as one block would cost every packet more than a hundred instructions.
+  HWY_INLINE MaterialInputs() {}
+
   Vec3<T> base_color;      // clamped to 1
   T alpha_coverage{};      // not read here
   T metallic{};            // [0, 1]
@@ -126,7 +128,7 @@ struct Closure {
     }
     const T average_roughness =
         Has(kAnisotropy) ? anisotropic.AverageAlbedoRoughness() : microfacets.perceptual_roughness;
-    return SpecularLobe<T>(dielectric, metal, metallic, /*is_white_at_grazing=*/!Has(kSpecular),
+    return SpecularLobe<T>(dielectric, metal, metallic, /*is_default=*/!Has(kSpecular | kIor | kIridescence),
                            lighting.Dfg(at.n_dot_v, AlbedoRoughness(at.view)), lighting.DfgAverage(average_roughness));
   }
 };
