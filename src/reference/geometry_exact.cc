@@ -213,23 +213,41 @@ void ExactGeometry::HitsAt(const glm::dvec2& place, const std::vector<std::uint3
 }
 
 SurfacePoint ExactGeometry::SurfaceAt(const Hit& hit) const {
-  const Shape& shape = primitives_[hit.primitive];
-  const Placed& placed = placed_[shape.drawable];
+  return Surface(TriangleOf(hit), hit.weight, primitives_[hit.primitive].is_back, nullptr);
+}
+
+SurfacePoint ExactGeometry::SurfaceOf(const TriangleId& triangle, const glm::dvec3& weight, bool is_back,
+                                      const glm::dvec3& view) const {
+  return Surface(triangle, weight, is_back, &view);
+}
+
+std::array<glm::dvec3, 3> ExactGeometry::CornersOf(const TriangleId& triangle) const {
+  const Placed& placed = placed_[triangle.drawable];
+  const std::array<std::uint32_t, 3> vertex = PrimitiveVertices(*placed.geometry, triangle.index);
+  return {EyeRelative(placed, vertex[0]), EyeRelative(placed, vertex[1]), EyeRelative(placed, vertex[2])};
+}
+
+// `view`: null for that towards the camera.
+SurfacePoint ExactGeometry::Surface(const TriangleId& primitive, const glm::dvec3& weight, bool is_back,
+                                    const glm::dvec3* view) const {
+  const Placed& placed = placed_[primitive.drawable];
   const Primitive& geometry = *placed.geometry;
   SurfacePoint point;
   point.geometry = &geometry;
-  point.vertex = PrimitiveVertices(geometry, shape.index);
-  point.weight = hit.weight;
-  const auto mix = [&](const auto& of) { return of(0) * hit.weight.x + of(1) * hit.weight.y + of(2) * hit.weight.z; };
+  point.vertex = PrimitiveVertices(geometry, primitive.index);
+  point.weight = weight;
+  const auto mix = [&](const auto& of) { return of(0) * weight.x + of(1) * weight.y + of(2) * weight.z; };
   glm::dvec3 corner[3];
   for (std::size_t i = 0; i < 3; ++i) corner[i] = EyeRelative(placed, point.vertex[i]);
   point.position = mix([&](int i) { return corner[i]; });
-  point.view = view_.perspective ? UnitOr(-point.position, {0.0, 0.0, 1.0})
-                                 : glm::dvec3(0.0, 0.0, 1.0) * view_.camera_from_world;
+  point.view = view != nullptr    ? *view
+               : view_.perspective ? UnitOr(-point.position, {0.0, 0.0, 1.0})
+                                   : glm::dvec3(0.0, 0.0, 1.0) * view_.camera_from_world;
 
-  const double side = shape.is_back ? -1.0 : 1.0, turn = placed.mirrored ? -side : side;
+  const double side = is_back ? -1.0 : 1.0, turn = placed.mirrored ? -side : side;
   const glm::dvec3 flat =
       UnitOr(glm::cross(corner[1] - corner[0], corner[2] - corner[0]) * turn, UnitOr(-corner[0], {0.0, 0.0, 1.0}));
+  point.flat_normal = flat;
   point.interpolated_normal = flat;
   if (!geometry.normals.empty()) {
     point.interpolated_normal = mix([&](int i) {

@@ -1,6 +1,7 @@
 // Visibility for the reference: tests all primitives at a point of the image, in double and without snapping.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <vector>
@@ -11,6 +12,12 @@
 #include "scene/pose.h"
 
 namespace facet {
+
+// A primitive of a drawable.
+struct TriangleId {
+  std::uint32_t drawable = 0, index = 0;
+  bool operator==(const TriangleId&) const = default;
+};
 
 // All triangles, lines and points of a posed scene in front of a camera, without culled back faces. Refers to the posed
 // scene.
@@ -34,7 +41,20 @@ class ExactGeometry {
   std::size_t PrimitiveCount() const { return primitives_.size(); }
 
   std::size_t DrawableOf(const Hit& hit) const { return primitives_[hit.primitive].drawable; }
+  TriangleId TriangleOf(const Hit& hit) const {
+    return {primitives_[hit.primitive].drawable, primitives_[hit.primitive].index};
+  }
+  bool IsBack(const Hit& hit) const { return primitives_[hit.primitive].is_back; }
   SurfacePoint SurfaceAt(const Hit& hit) const;
+
+  // All drawables of the scene, of which the camera may see only a part. Of triangles: `view` is unit, towards where
+  // the point is seen from; `is_back` says whether that is behind the triangle.
+  std::size_t DrawableCount() const { return placed_.size(); }
+  const Primitive& PrimitiveOf(std::size_t drawable) const { return *placed_[drawable].geometry; }
+  bool IsMirrored(std::size_t drawable) const { return placed_[drawable].mirrored; }
+  std::array<glm::dvec3, 3> CornersOf(const TriangleId& triangle) const;  // world axes, origin at the eye
+  SurfacePoint SurfaceOf(const TriangleId& triangle, const glm::dvec3& weight, bool is_back,
+                         const glm::dvec3& view) const;
 
  private:
   struct Placed {
@@ -59,6 +79,8 @@ class ExactGeometry {
   };
 
   glm::dvec3 EyeRelative(const Placed& placed, std::uint32_t vertex) const;
+  SurfacePoint Surface(const TriangleId& primitive, const glm::dvec3& weight, bool is_back,
+                       const glm::dvec3* view) const;
   void AddTriangle(Shape& shape, bool double_sided);
   void AddLine(Shape& shape);
   void AddPoint(Shape& shape);

@@ -13,7 +13,7 @@
 #include "plan/frame_plan.h"
 #include "reference/geometry_exact.h"
 #include "reference/material_exact.h"
-#include "reference/models_exact.h"
+#include "reference/trace_exact.h"
 #include "scene/camera.h"
 
 namespace facet {
@@ -78,6 +78,8 @@ class ReferenceScene {
     if (plan_.environment_light || plan_.environment_background) environment_.emplace(settings.environment);
     light_.emplace(ExactLight{punctual_, plan_.environment_light ? &*environment_ : nullptr, AlbedoSurface::Shared(),
                               std::uint32_t(reference.environment_samples)});
+    tracer_.emplace(geometry_, posed_, plan_, materials_, *light_,
+                    plan_.environment_background ? &*environment_ : nullptr);
   }
 
   // Working memory of one thread.
@@ -99,7 +101,7 @@ class ReferenceScene {
     return sum / double(reference_.samples);
   }
 
-  std::uint64_t NonFinite() const { return non_finite_; }
+  std::uint64_t NonFinite() const { return tracer_->NonFinite(); }
 
  private:
   using Hit = ExactGeometry::Hit;
@@ -150,29 +152,17 @@ class ReferenceScene {
 
     glm::dvec4 color(0.0);
     if (nearest != nullptr) {
-      color = glm::dvec4(glm::dvec3(Shade(*nearest, run)), 1.0);
+      const ExactTracer::Shown shown = tracer_->Shade(*nearest, run);
+      color = glm::dvec4(shown.light, shown.alpha);
     } else if (plan_.environment_background) {
       color = glm::dvec4(environment_->Toward(view_.DirectionThrough(place)).radiance, 1.0);
     }
     for (const Hit& layer : scratch.layers) {
       run.pair += kPairsOfRadiance;
-      const glm::dvec4 shaded = Shade(layer, run);
-      color = glm::dvec4(glm::dvec3(shaded), 1.0) * shaded.w + color * (1.0 - shaded.w);
+      const ExactTracer::Shown shown = tracer_->Shade(layer, run);
+      color = glm::dvec4(shown.light, shown.alpha) * shown.coverage + color * (1.0 - shown.coverage);
     }
     return color;
-  }
-
-  // Radiance, and alpha in [0, 1]. Values that are not finite become black and transparent, and are counted.
-  glm::dvec4 Shade(const Hit& hit, const SampleRun& run) const {
-    const SurfacePoint point = geometry_.SurfaceAt(hit);
-    const ExactMaterial& material = MaterialAt(hit);
-    const glm::dvec4 base = material.BaseColor(point);
-    const glm::dvec3 color = RadianceByModel(material, glm::dvec3(base), point, *light_, run);
-    if (!std::isfinite(color.x + color.y + color.z + base.w)) {
-      ++non_finite_;
-      return glm::dvec4(0.0);
-    }
-    return glm::dvec4(color, std::clamp(base.w, 0.0, 1.0));
   }
 
   const ReferenceSettings& reference_;
@@ -184,7 +174,7 @@ class ReferenceScene {
   std::vector<PunctualLight> punctual_;
   std::optional<ExactEnvironment> environment_;
   std::optional<ExactLight> light_;
-  mutable std::atomic<std::uint64_t> non_finite_{0};
+  std::optional<ExactTracer> tracer_;
 };
 
 // Computes the overall errors of a film from its `standard_error`. Unknown pixels are 0 and add nothing.

@@ -43,6 +43,9 @@ class ClosedForm {
     return result;
   }
 
+  // The share of light that the dielectric's interface lets pass at an angle.
+  double LeftAt(double n_dot_v) const { return Left(IntegrateAlbedo(n_dot_v, alpha_)); }
+
  private:
   static constexpr double kPi = 3.14159265358979324;
   static double Lost(const ExactAlbedo& e) { return 1.0 - e.a - e.b; }
