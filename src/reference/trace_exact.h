@@ -36,7 +36,7 @@ namespace facet {
 // Immutable but for its count; thread-safe. Refers to all that it is made of.
 class ExactTracer {
  public:
-  static constexpr int kMostCrossings = 32;
+  static constexpr int kMostCrossings = 64;
 
   // `background`: what rays see that meet nothing; null: nothing.
   ExactTracer(const ExactGeometry& geometry, const PosedScene& posed, const FramePlan& plan,

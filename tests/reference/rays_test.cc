@@ -85,13 +85,14 @@ TEST(ExactRays, TheHierarchyIsAMereSaving) {
     ASSERT_LE(glm::dot(point.flat_normal, ray.direction), 0.0);  // on the side that it comes from
     // Behind what is not accepted there is the next.
     const auto next = traced.rays.Nearest(ray, [&](const ExactRays::Hit& h) { return !(h.triangle == which); });
-    if (next) ASSERT_GE(next->distance, hit->distance);
     ExactRay on = ray;
     on.origin = point.position;
     on.from = which;
     const auto after = traced.rays.Nearest(on, kAll);
     ASSERT_EQ(after.has_value(), next.has_value());
-    if (next) ASSERT_EQ(after->triangle, next->triangle);
+    if (!next) continue;
+    ASSERT_GE(next->distance, hit->distance);
+    ASSERT_EQ(after->triangle, next->triangle);
   }
   EXPECT_GT(hits, 500);
 }
