@@ -101,7 +101,7 @@ class ReferenceScene {
     return sum / double(reference_.samples);
   }
 
-  std::uint64_t NonFinite() const { return tracer_->NonFinite(); }
+  const ExactTracer& Tracer() const { return *tracer_; }
 
  private:
   using Hit = ExactGeometry::Hit;
@@ -229,8 +229,13 @@ class ReferenceRun::Work {
       Tell();
     }
     film_.notes = notes_;
-    if (prepared_.NonFinite() > 0) {
-      film_.notes.push_back(std::to_string(prepared_.NonFinite()) + " samples were not finite, and became black");
+    const ExactTracer& tracer = prepared_.Tracer();
+    if (tracer.NonFinite() > 0) {
+      film_.notes.push_back(std::to_string(tracer.NonFinite()) + " samples were not finite, and became black");
+    }
+    if (tracer.GivenUp() > 0) {
+      film_.notes.push_back(std::to_string(tracer.GivenUp()) + " rays were still inside of glass after " +
+                            std::to_string(ExactTracer::kMostCrossings) + " surfaces, and became black");
     }
     film_.seconds = Elapsed();
     return film_;

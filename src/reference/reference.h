@@ -4,6 +4,13 @@
 // surface at each sample, without snapping; textures without mip levels; the environment's light by integration over
 // the whole environment; and no tables. Sample positions and directions come from scrambled low-discrepancy sequences,
 // so that every pixel has an estimate of its own remaining error.
+//
+// What is seen through surfaces that transmit light is found by tracing rays through the geometry, where the rasterizer
+// looks up the image behind them: refraction where a volume is entered and left, reflection inside where it is total,
+// absorption along the way, the scattering of rough surfaces, also of those behind, and an index of refraction for each
+// channel are exact. Not exact, and as in the rasterizer: light reaches every surface as if no other were in its way,
+// glass included; the inside of a surface reflects nothing unless it reflects all; a mesh that is not closed is a slab
+// of the stated thickness. (trace_exact.h has the whole list.)
 #pragma once
 
 #include <cstddef>

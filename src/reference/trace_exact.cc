@@ -86,7 +86,11 @@ ExactTracer::Seen ExactTracer::Surface(const SurfacePoint& point, const glm::dve
   const ExactEntry entry =
       EntryAt(material, base_color, point, is_back ? 0.0 : metres_per_unit_[triangle.drawable], light_);
   seen.light += entry.punctual;
-  if (way.left == 0 || entry.tint == glm::dvec3(0.0)) return seen;
+  if (entry.tint == glm::dvec3(0.0)) return seen;
+  if (way.left == 0) {
+    ++given_up_;
+    return seen;
+  }
   const Seen behind = Behind(entry, point, triangle, is_back, way, random);
   seen.light += entry.tint * behind.light;
   seen.through = entry.tint * behind.through;
@@ -173,41 +177,51 @@ ExactTracer::Seen ExactTracer::ThroughSlab(const ExactEntry& entry, double ratio
   return {seen.light * passing, seen.through * passing};
 }
 
-ExactTracer::Seen ExactTracer::Along(const Way& way, Random& random) const {
+ExactTracer::Seen ExactTracer::Along(Way way, Random& random) const {
   const bool inside = way.media.Any();
-  const auto hit = rays_->Nearest(way.ray, [&](const auto& h) { return IsSeen(h, way.ray, inside); });
-  if (!hit) {
-    if (background_ == nullptr) return {glm::dvec3(0.0), glm::dvec3(1.0)};
-    return {background_->Toward(way.ray.direction).radiance, glm::dvec3(0.0)};
-  }
-  Seen seen;
-  if (inside && hit->is_back && BoundsMedium(hit->triangle.drawable)) {
-    seen = Leave(*hit, way, random);
-  } else {
+  Seen sum;
+  glm::dvec3 rest(1.0);  // what the surfaces so far let pass
+  const auto add = [&](const Seen& seen, double share) {
+    sum.light += rest * seen.light * share;
+    sum.through += rest * seen.through * share;
+  };
+  for (;;) {
+    const auto hit = rays_->Nearest(way.ray, [&](const auto& h) { return IsSeen(h, way.ray, inside); });
+    if (!hit) {
+      const bool is_nothing = background_ == nullptr;
+      add(is_nothing ? Seen{glm::dvec3(0.0), glm::dvec3(1.0)}
+                     : Seen{background_->Toward(way.ray.direction).radiance, glm::dvec3(0.0)},
+          1.0);
+      return sum;
+    }
+    rest *= way.media.Passing(hit->distance);
+    if (inside && hit->is_back && BoundsMedium(hit->triangle.drawable)) {
+      add(Leave(*hit, way, random), 1.0);
+      return sum;
+    }
     const SurfacePoint point = PointOf(*hit, way.ray);
-    const ExactMaterial& material = MaterialOf(hit->triangle.drawable);
-    const glm::dvec4 base = material.BaseColor(point);
-    const double coverage = material.Frame().alpha_mode == AlphaMode::Blend ? std::clamp(base.w, 0.0, 1.0) : 1.0;
+    const FrameMaterial& frame = MaterialOf(hit->triangle.drawable).Frame();
+    const glm::dvec4 base = MaterialOf(hit->triangle.drawable).BaseColor(point);
+    double coverage = frame.alpha_mode == AlphaMode::Blend ? std::clamp(base.w, 0.0, 1.0) : 1.0;
+    // What lies behind is not followed twice, or the work would double with each layer.
+    if (coverage < 1.0 && frame.Has(kTransmission)) coverage = random.Point().x < coverage ? 1.0 : 0.0;
     if (coverage > 0.0) {
       const SampleRun run = random.Run();
-      seen = Surface(point, glm::dvec3(base), hit->triangle, hit->is_back, run, way, random);
+      add(Surface(point, glm::dvec3(base), hit->triangle, hit->is_back, run, way, random), coverage);
     }
-    if (coverage < 1.0) {
-      Way on = way;
-      on.ray.origin = point.position;
-      on.ray.from = hit->triangle;
-      const Seen behind = Along(on, random);
-      seen.light = seen.light * coverage + behind.light * (1.0 - coverage);
-      seen.through = seen.through * coverage + behind.through * (1.0 - coverage);
-    }
+    if (coverage >= 1.0) return sum;
+    rest *= 1.0 - coverage;
+    way.ray.origin = point.position;
+    way.ray.from = hit->triangle;
   }
-  const glm::dvec3 passing = way.media.Passing(hit->distance);
-  return {seen.light * passing, seen.through * passing};
 }
 
 // `way`: inside, towards the hit, which is the back of a surface that bounds a medium.
 ExactTracer::Seen ExactTracer::Leave(const ExactRays::Hit& hit, Way way, Random& random) const {
-  if (way.left == 0) return {};
+  if (way.left == 0) {
+    ++given_up_;
+    return {};
+  }
   --way.left;
   const SurfacePoint point = PointOf(hit, way.ray);
   const ExactInterface at = ExitAt(MaterialOf(hit.triangle.drawable), point);

@@ -54,6 +54,8 @@ class ExactTracer {
 
   // How often a surface's light was not finite, and became black and transparent.
   std::uint64_t NonFinite() const { return non_finite_; }
+  // How many rays were still on their way after kMostCrossings.
+  std::uint64_t GivenUp() const { return given_up_; }
 
  private:
   static constexpr std::uint32_t kPairsApart = 1u << 16;
@@ -109,7 +111,7 @@ class ExactTracer {
   SurfacePoint PointOf(const ExactRays::Hit& hit, const ExactRay& ray) const {
     return geometry_.SurfaceOf(hit.triangle, hit.weight, hit.is_back, -ray.direction);
   }
-  Seen Along(const Way& way, Random& random) const;
+  Seen Along(Way way, Random& random) const;
   Seen Surface(const SurfacePoint& point, const glm::dvec3& base_color, const TriangleId& triangle, bool is_back,
                const SampleRun& run, const Way& way, Random& random) const;
   Seen Behind(const ExactEntry& entry, const SurfacePoint& point, const TriangleId& triangle, bool is_back, Way way,
@@ -127,7 +129,7 @@ class ExactTracer {
   const ExactEnvironment* const background_;
   std::optional<ExactRays> rays_;           // if any material transmits
   std::vector<double> metres_per_unit_;     // of each drawable
-  mutable std::atomic<std::uint64_t> non_finite_{0};
+  mutable std::atomic<std::uint64_t> non_finite_{0}, given_up_{0};
 };
 
 }  // namespace facet

@@ -127,7 +127,11 @@ TEST(ReferenceGlass, TransmissionIsAShareAndAlphaIsCoverage) {
   ExpectNear(glm::dvec3(Seen(scene, OneRay())), card * (0.5 + 0.5 * 0.25 * left), 1e-6, "covered by a half");
   // Behind a second pane the same layer is met by a ray.
   Add(scene, Rectangle(-2, -2, 2, 2, 1), AddMaterial(scene, Glass(glm::vec3(1.0f))));
-  ExpectNear(glm::dvec3(Seen(scene, OneRay())), card * (0.5 + 0.5 * 0.25 * left) * left, 1e-6, "behind a pane");
+  const ReferenceFilm film = RenderReference(scene, OneRay(), Effort(256, 1, 16));
+  for (int c = 0; c < 3; ++c) {
+    EXPECT_NEAR(film.pixels[0][c], card[c] * (0.5 + 0.5 * 0.25 * left) * left, 5.0 * film.standard_error[0][c] + 1e-6);
+    EXPECT_LT(film.standard_error[0][c], 0.002);
+  }
 }
 
 // A ray meets alpha-tested and blended surfaces, and backs, as the camera does.
@@ -312,7 +316,8 @@ TEST(ReferenceGlass, MediaInsideMedia) {
   EXPECT_NEAR(PlaceOnCard(Seen(hollow, OneRay())).x, displaced(0.5), 1e-5);
 }
 
-// White glass in constant light cannot be told from it. What is caught inside for too long is missing.
+// White glass in constant light cannot be told from it. What is caught inside for too long is missing: under half a
+// percent of a diamond's with a matt surface.
 TEST(ReferenceGlass, WhiteFurnace) {
   for (const int shape : {0, 1, 2}) {
     for (const float roughness : {0.0f, 0.3f, 1.0f}) {
@@ -335,9 +340,10 @@ TEST(ReferenceGlass, WhiteFurnace) {
         }
         const std::string what = std::to_string(shape) + " " + std::to_string(roughness) + " " + std::to_string(ior);
         RecordProperty("furnace " + what, std::to_string(sum));
-        std::printf("furnace %s: %.6f, +- %.6f\n", what.c_str(), sum, film.rms_error / 0.7 / 8.0);
-        EXPECT_LT(sum, 1.005) << what;
-        EXPECT_GT(sum, 0.98) << what;
+        const double noise = film.rms_error / (0.7 * std::sqrt(double(film.pixels.size())));
+        EXPECT_LT(sum, 1.0 + 4.0 * noise) << what;
+        EXPECT_GT(sum, 1.0 - 4.0 * noise - (ior > 2.0f && roughness == 0.3f ? 0.01 : 1e-4)) << what;
+        EXPECT_LT(noise, 0.006) << what;
       }
     }
   }
