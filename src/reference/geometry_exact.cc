@@ -240,7 +240,7 @@ SurfacePoint ExactGeometry::Surface(const TriangleId& primitive, const glm::dvec
   glm::dvec3 corner[3];
   for (std::size_t i = 0; i < 3; ++i) corner[i] = EyeRelative(placed, point.vertex[i]);
   point.position = mix([&](int i) { return corner[i]; });
-  point.view = view != nullptr    ? *view
+  point.view = view != nullptr     ? *view
                : view_.perspective ? UnitOr(-point.position, {0.0, 0.0, 1.0})
                                    : glm::dvec3(0.0, 0.0, 1.0) * view_.camera_from_world;
 

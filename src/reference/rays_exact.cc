@@ -69,9 +69,8 @@ std::uint32_t ExactRays::Build(std::uint32_t first, std::uint32_t count) {
     node.axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
     const std::uint32_t half = count / 2;
     const auto begin = triangles_.begin() + first;
-    std::nth_element(begin, begin + half, begin + count, [&](const Triangle& a, const Triangle& b) {
-      return centre(a)[node.axis] < centre(b)[node.axis];
-    });
+    std::nth_element(begin, begin + half, begin + count,
+                     [&](const Triangle& a, const Triangle& b) { return centre(a)[node.axis] < centre(b)[node.axis]; });
     Build(first, half);
     node.first = Build(first + half, count - half);
   }

@@ -12,7 +12,7 @@ namespace facet {
 // World axes, origin at the eye. Vectors are turned to the viewer's side.
 struct SurfacePoint {
   glm::dvec3 position{0.0};
-  glm::dvec3 view{0.0, 0.0, 1.0};    // unit, towards the eye
+  glm::dvec3 view{0.0, 0.0, 1.0};         // unit, towards the eye
   glm::dvec3 flat_normal{0.0, 0.0, 1.0};  // unit, of the triangle
   glm::dvec3 normal{0.0, 0.0, 1.0};       // unit, interpolated
   // Interpolated and not normalised, as MikkTSpace demands; tangent.w is the handedness.

@@ -148,16 +148,16 @@ bool ExactTracer::IsClosed(const Way& inside) const {
   if (first->is_back && BoundsMedium(first->triangle.drawable)) return true;
   const auto exit = rays_->Nearest(inside.ray, [&](const auto& hit) {
     const Drawable& met = posed_.drawables[hit.triangle.drawable];
-    return hit.is_back && met.node == entered.node && met.mesh == entered.mesh &&
-           BoundsMedium(hit.triangle.drawable) && IsSeen(hit, inside.ray, true);
+    return hit.is_back && met.node == entered.node && met.mesh == entered.mesh && BoundsMedium(hit.triangle.drawable) &&
+           IsSeen(hit, inside.ray, true);
   });
   return exit.has_value();
 }
 
 // Through a medium between this surface and a parallel one, at the stated distance along the ray, which is not there.
 // `ratio`: of the indices outside and inside.
-ExactTracer::Seen ExactTracer::ThroughSlab(const ExactEntry& entry, double ratio, const Way& inside,
-                                           const Way& outside, Random& random) const {
+ExactTracer::Seen ExactTracer::ThroughSlab(const ExactEntry& entry, double ratio, const Way& inside, const Way& outside,
+                                           Random& random) const {
   const auto met = rays_->Nearest(inside.ray, [&](const auto& hit) {
     return hit.distance < entry.thickness && IsSeen(hit, inside.ray, outside.media.Any());
   });

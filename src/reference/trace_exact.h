@@ -40,8 +40,7 @@ class ExactTracer {
 
   // `background`: what rays see that meet nothing; null: nothing.
   ExactTracer(const ExactGeometry& geometry, const PosedScene& posed, const FramePlan& plan,
-              const std::vector<ExactMaterial>& materials, const ExactLight& light,
-              const ExactEnvironment* background);
+              const std::vector<ExactMaterial>& materials, const ExactLight& light, const ExactEnvironment* background);
 
   // What a hit of a ray of the camera shows. `run`: of its own light, with a pair of 1 to 65535; what is seen through
   // it takes pairs from kPairsApart times that on.
@@ -127,8 +126,8 @@ class ExactTracer {
   const std::vector<ExactMaterial>& materials_;
   const ExactLight& light_;
   const ExactEnvironment* const background_;
-  std::optional<ExactRays> rays_;           // if any material transmits
-  std::vector<double> metres_per_unit_;     // of each drawable
+  std::optional<ExactRays> rays_;        // if any material transmits
+  std::vector<double> metres_per_unit_;  // of each drawable
   mutable std::atomic<std::uint64_t> non_finite_{0}, given_up_{0};
 };
 
