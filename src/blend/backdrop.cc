@@ -14,6 +14,8 @@ namespace {
 
 constexpr float kNothing = -std::numeric_limits<float>::infinity();
 constexpr int kRowsATask = 16;
+// How many levels finer the parts of a texel are that are looked at where the whole is too near.
+constexpr int kFinerLevels = 2;
 
 // The standard deviation of a cubic B-spline over texels that are themselves means: sqrt(1/3 + 1/12) texels.
 constexpr float kSplineDeviation = 0.645497f;
@@ -51,6 +53,14 @@ void Backdrop::SetTile(const TileBuffers& at, bool is_empty, const std::vector<g
   }
 }
 
+void Backdrop::GetTile(const TileBuffers& at, std::vector<glm::vec4>& pixels) const {
+  pixels.assign(std::size_t(at.tile_size) * std::size_t(at.tile_size), glm::vec4(0.0f));
+  for (int y = 0; y < at.height; ++y) {
+    const Texel* texels = texels_.data() + std::size_t(at.y0 + y) * std::size_t(levels_[0].width) + at.x0;
+    for (int x = 0; x < at.width; ++x) pixels[std::size_t(y * at.tile_size + x)] = texels[x].light;
+  }
+}
+
 void Backdrop::Finish() {
   for (std::size_t l = 1; l < levels_.size(); ++l) {
     const Level from = levels_[l - 1], to = levels_[l];
@@ -78,20 +88,35 @@ void Backdrop::Finish() {
   }
 }
 
-void Backdrop::AddWeighted(const Level& level, int column, int row, int count, const float* weights_x,
+void Backdrop::AddTexel(std::size_t level, int column, int row, float weight, float nearest, int finer,
+                        Mean& sum) const {
+  const Level& at = levels_[level];
+  const Texel& texel = texels_[at.offset + std::size_t(row) * std::size_t(at.width) + std::size_t(column)];
+  if (!(texel.nearest > nearest)) {
+    sum.accepted += weight;
+    sum.light += texel.light * weight;
+    sum.depth += texel.depth * weight;
+    return;
+  }
+  if (level == 0 || finer == 0) return;
+  const Level& parts = levels_[level - 1];
+  const int right = std::min(2 * column + 2, parts.width), bottom = std::min(2 * row + 2, parts.height);
+  const float part = weight / static_cast<float>((right - 2 * column) * (bottom - 2 * row));
+  for (int j = 2 * row; j < bottom; ++j) {
+    for (int i = 2 * column; i < right; ++i) AddTexel(level - 1, i, j, part, nearest, finer - 1, sum);
+  }
+}
+
+void Backdrop::AddWeighted(std::size_t level, int column, int row, int count, const float* weights_x,
                            const float* weights_y, float nearest, float share, Mean& sum) const {
+  const Level& at = levels_[level];
   for (int j = 0; j < count; ++j) {
-    if (row + j < 0 || row + j >= level.height) continue;
-    const Texel* texels = texels_.data() + level.offset + std::size_t(row + j) * std::size_t(level.width);
+    if (row + j < 0 || row + j >= at.height) continue;
     for (int i = 0; i < count; ++i) {
-      if (column + i < 0 || column + i >= level.width) continue;
+      if (column + i < 0 || column + i >= at.width) continue;
       const float weight = weights_x[i] * weights_y[j] * share;
       sum.inside += weight;
-      const Texel& texel = texels[column + i];
-      if (texel.nearest > nearest) continue;
-      sum.accepted += weight;
-      sum.light += texel.light * weight;
-      sum.depth += texel.depth * weight;
+      AddTexel(level, column + i, row + j, weight, nearest, kFinerLevels, sum);
     }
   }
 }
@@ -99,7 +124,7 @@ void Backdrop::AddWeighted(const Level& level, int column, int row, int count, c
 void Backdrop::AddLinear(float x, float y, float nearest, float share, Mean& sum) const {
   const float u = x - 0.5f, v = y - 0.5f, left = std::floor(u), top = std::floor(v);
   const float weights_x[2] = {1.0f - (u - left), u - left}, weights_y[2] = {1.0f - (v - top), v - top};
-  AddWeighted(levels_[0], static_cast<int>(left), static_cast<int>(top), 2, weights_x, weights_y, nearest, share, sum);
+  AddWeighted(0, static_cast<int>(left), static_cast<int>(top), 2, weights_x, weights_y, nearest, share, sum);
 }
 
 void Backdrop::AddSpline(std::size_t level, float x, float y, float nearest, float share, Mean& sum) const {
@@ -113,7 +138,7 @@ void Backdrop::AddSpline(std::size_t level, float x, float y, float nearest, flo
     weights[axis][2] = (r * r * (3.0f * r - 6.0f) + 4.0f) * sixth;
     weights[axis][3] = t * t * t * sixth;
   }
-  AddWeighted(levels_[level], static_cast<int>(left) - 1, static_cast<int>(top) - 1, 4, weights[0], weights[1],
+  AddWeighted(level, static_cast<int>(left) - 1, static_cast<int>(top) - 1, 4, weights[0], weights[1],
               nearest, share, sum);
 }
 

@@ -20,6 +20,8 @@ class Backdrop {
   // `pixels`: the tile's opaque surfaces, premultiplied by their coverage, tile_size a row; `tile`: their depths; null:
   // nothing is there.
   void SetTile(const TileBuffers& at, bool is_empty, const std::vector<glm::vec4>& pixels);
+  // The pixels that SetTile() was given.
+  void GetTile(const TileBuffers& at, std::vector<glm::vec4>& pixels) const;
   // Computes the coarser levels, in parallel.
   void Finish();
 
@@ -42,8 +44,10 @@ class Backdrop {
     int width, height;
     std::size_t offset;
   };
-  // Adds to `sum` weighted texels, `columns` times `rows` of them.
-  void AddWeighted(const Level& level, int column, int row, int count, const float* weights_x, const float* weights_y,
+  // Adds a texel. Where a part of it is too near, adds those of its parts, in finer levels, that are not.
+  void AddTexel(std::size_t level, int column, int row, float weight, float nearest, int finer, Mean& sum) const;
+  // Adds count x count weighted texels.
+  void AddWeighted(std::size_t level, int column, int row, int count, const float* weights_x, const float* weights_y,
                    float nearest, float share, Mean& sum) const;
   void AddLinear(float x, float y, float nearest, float share, Mean& sum) const;
   void AddSpline(std::size_t level, float x, float y, float nearest, float share, Mean& sum) const;

@@ -7,6 +7,7 @@ namespace facet {
 namespace {
 
 constexpr float kCovered = 1e-4f;  // less of it is rounding error
+constexpr int kNarrower = 4;       // how often a blur is looked for with a narrower one
 
 // The perceptual roughness of a lobe by the deviation of its tangent: the inverse of TransmissionLobe::Spread().
 float RoughnessOfSpread(float spread) {
@@ -54,13 +55,19 @@ ThroughCompositor::Seen ThroughCompositor::Look(const ThroughView& view, const S
   Seen seen;
   float deviation = 0.0f;
   if (blur2 > 0.0f) {
-    // How far away is what is seen? Looks at the widest blur first, then at the one that follows from it.
+    // How far away is what is seen? What a fourth of the widest blur covers says how wide it is, or, if all of that is
+    // too near, what less of it covers. Then what that blur covers says so again.
     const float widest = std::sqrt(blur2);
     seen.roughness = RoughnessOfSpread(widest / view.pixels_per_tangent);
     deviation = view.perspective ? widest : 0.0f;
-    for (int step = 0; step < 2; ++step) {
-      const Backdrop::Mean mean = around(1, 1.0f, deviation);
-      if (mean.light.a < kCovered) break;
+    float look = 0.25f * deviation;
+    for (int step = 0, narrower = 0; step < 2;) {
+      const Backdrop::Mean mean = around(1, 1.0f, look);
+      if (mean.light.a < kCovered) {
+        if (++narrower > kNarrower || mean.accepted > 0.0f) break;
+        look *= 0.25f;
+        continue;
+      }
       const float behind = mean.depth / mean.light.a;
       blur2 = 0.0f;
       for (const std::uint32_t k : bending_) {
@@ -68,17 +75,20 @@ ThroughCompositor::Seen ThroughCompositor::Look(const ThroughView& view, const S
                            BlurByDepths(view.perspective, DepthAt(planes_[k], in_block_x, in_block_y), behind);
         blur2 += blur * blur;
       }
-      deviation = std::sqrt(blur2);
+      look = deviation = std::sqrt(blur2);
+      ++step;
     }
   }
 
   for (int c = 0; c < 3; ++c) seen.x[c] = in_image_x + shift_x[c], seen.y[c] = in_image_y + shift_y[c];
   for (int c = 0; c < (disperses ? 3 : 1); ++c) {
     Backdrop::Mean mean;
-    for (const float part : {1.0f, 0.5f, 0.25f}) {
-      mean = around(c, part, deviation);
-      if (mean.accepted > 0.0f || mean.inside == 0.0f) break;
-    }
+    const auto look = [&](float part, float narrower) {
+      mean = around(c, part, deviation * narrower);
+      return mean.accepted > 0.0f || mean.inside == 0.0f;
+    };
+    const bool found = look(1.0f, 1.0f) || (deviation > 0.0f && (look(1.0f, 0.25f) || look(1.0f, 0.0625f)));
+    if (!found && !look(0.5f, 0.0625f)) look(0.25f, 0.0625f);
     const bool all_nearer = mean.accepted == 0.0f && mean.inside > 0.0f;
     // A blur that is centred on the picture's border has half of its weight inside.
     const float part = std::min(2.0f * mean.inside, 1.0f);

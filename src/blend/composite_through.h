@@ -36,7 +36,7 @@ struct ThroughView {
 // At each sample the layers' own light is multiplied by the tints of those in front. Where none of them refracts or
 // blurs, the sample's own opaque surface (or `background`) is seen. Otherwise shifts add up, and squares of blurs, and
 // the backdrop answers there. Not seen is what is nearer than the rearmost refracting layer: if all that would be seen
-// is, the shift is halved, and at last the sample's own opaque surface answers. Outside of the picture there is only the
+// is, a narrower blur is tried, then half of the shift, and at last the sample's own opaque surface answers. Outside of the picture there is only the
 // background.
 class ThroughCompositor {
  public:

@@ -41,7 +41,8 @@ class TileWorker {
     opaque_.list.Clear();
     blended_.list.Clear();
     const bool touched = visibility_.Begin(column, first_row + row, t);
-    DrawOpaque(touched, counts);
+    const bool is_known = in_.backdrop != nullptr && output.planes.empty() && !visibility_.HasBlended();
+    is_known ? in_.backdrop->GetTile(visibility_.Buffers(), pixels_) : DrawOpaque(touched, counts);
     in_.background.CompositeUnder(visibility_.Buffers(), pixels_);
     if (visibility_.HasBlended()) Blend(counts);
     const std::size_t first =

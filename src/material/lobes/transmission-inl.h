@@ -77,7 +77,13 @@ struct TransmissionLobe {
   // The standard deviation of the tangent of the angle by which the lobe spreads light. GGX has none, because of its
   // tails, so it is that of the Gauss lobe with the same median: half of the facets are tilted by less than atan(alpha),
   // and deviate light by twice that. Where they are very rough, half of the light deviates by less than 45 degrees.
-  HWY_INLINE T Spread() const { return unclamped_alpha * T(1.7f) / (T(1.0f) + unclamped_alpha); }
+  //
+  // That is the mirrored reflection of a thin wall. The facets of a volume refract: they deviate light by ior - 1 times
+  // their tilt instead of twice.
+  HWY_INLINE T Spread(bool has_volume, T ior) const {
+    const T mirrored = unclamped_alpha * T(1.7f) / (T(1.0f) + unclamped_alpha);
+    return has_volume ? mirrored * Min(T(0.25f) * Max(T(2.0f) * ior - T(2.0f), T(1.0f)), T(1.0f)) : mirrored;
+  }
 };
 
 // The vector from where the view enters a medium to where it leaves it. `ior`: 1 or more.

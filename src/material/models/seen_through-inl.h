@@ -35,7 +35,7 @@ HWY_INLINE ShadedThrough<T> ShadeThrough(MaterialInputs<T> in, const Surface<T>&
   ShadedThrough<T> out{};
   out.own = {ShadeClosure(closure, in, surface.position, lighting), in.alpha_coverage};
   out.tint = closure.transmission.color;
-  out.spread = closure.transmission.Spread();
+  out.spread = closure.transmission.Spread(has_volume, in.transmission.ior.y);
   if (!has_volume) return out;
   const T thickness = in.transmission.thickness;
   const Vec3<T>& ior = in.transmission.ior;
