@@ -105,7 +105,7 @@ ExactTracer::Seen ExactTracer::Behind(const ExactEntry& entry, const SurfacePoin
   way.ray.from = triangle;
   const glm::dvec2 pair = random.Point();
   if (is_back || !BoundsMedium(triangle.drawable)) {
-    const ThinWallSample sample = PassThinWall(entry.at, entry.at.ior.y, light_.albedos, pair, random.Point().x);
+    const ThinWallSample sample = PassThinWall(entry, light_.albedos, pair, random.Point().x);
     way.ray.direction = sample.direction;
     Seen seen = Along(way, random);
     seen.light *= sample.weight;

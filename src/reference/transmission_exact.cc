@@ -22,26 +22,6 @@ ExactInterface InterfaceAt(const ExactSource& source, const SurfacePoint& point,
           point.flat_normal, roughness * roughness, glm::dvec3(ior[0], ior[1], ior[2])};
 }
 
-// How much narrower a thin wall scatters than it reflects: a wall between equal media does not scatter.
-double ThinWallAlpha(double alpha, double ior) { return alpha * Bounded(2.0 * ior - 2.0); }
-
-// The lobe of a thin wall for one direction of light, times the cosine.
-double ThinWallLobe(const ExactInterface& at, double alpha, const lanes::Vec3<double>& light,
-                    const ExactLighting& lighting) {
-  const lanes::Vec3<double> normal = ToLanes(at.normal);
-  const lanes::SurfaceView<double> seen{normal, ToLanes(at.view),
-                                        std::clamp(glm::dot(at.normal, at.view), double(lanes::kMinNDotV), 1.0)};
-  const double behind = -lanes::Dot(normal, light);
-  if (!(behind > 0.0)) return 0.0;
-  const lanes::Microfacets<double> microfacets(std::sqrt(alpha));
-  const auto from = lanes::IncidenceFrom(seen, light + normal * (2.0 * behind));
-  const double roughness = microfacets.perceptual_roughness;
-  const double multiple = lanes::LostEnergy(lighting.Dfg(seen.n_dot_v, roughness)) *
-                          lanes::LostEnergy(lighting.Dfg(from.n_dot_l, roughness)) /
-                          (kPiExact * std::max(lanes::LostEnergy(lighting.DfgAverage(roughness)), 1e-6));
-  return (microfacets.Single(seen, from) + multiple) * from.n_dot_l;
-}
-
 }  // namespace
 
 ExactInterface ExitAt(const ExactMaterial& material, const SurfacePoint& point) {
@@ -54,38 +34,37 @@ ExactInterface ExitAt(const ExactMaterial& material, const SurfacePoint& point) 
 ExactEntry EntryAt(const ExactMaterial& material, const glm::dvec3& base_color, const SurfacePoint& point,
                    double metres_per_unit, const ExactLight& light) {
   const ExactSource source{material, point};
-  const MaterialFactors& factors = source.Factors();
   auto in = lanes::ReadInputs<double>(source, ToLanes(glm::dvec4(base_color, 1.0)), material.Frame().features);
   if (material.Frame().model == ShadingModel::SpecularGlossiness) lanes::SetSpecularGlossiness(source, in);
+  const double thickness = in.transmission.thickness * metres_per_unit;
+  in.transmission.thickness = 0.0;  // so that the closure's colour is that of the surface alone
   const ExactLighting lighting(light.albedos);
   const lanes::Closure<double> closure(in, ToLanes(point.view), lighting);
 
   ExactEntry entry;
   entry.at = InterfaceAt(source, point, in.perceptual_roughness);
-  double left = (1.0 - Bounded(in.metallic)) * Bounded(in.transmission) * closure.diffuse.left_for_view;
-  if (closure.Has(kSheen)) left *= closure.sheen.EnergyLeft();
-  if (closure.Has(kClearcoat)) left *= closure.clearcoat.EnergyLeft();
-  entry.tint = glm::clamp(base_color, 0.0, 1.0) * left;
+  entry.thin_wall_alpha = closure.transmission.unclamped_alpha;
+  entry.tint = FromLanes(closure.transmission.color);
   glm::dvec3 passing(1.0);
   if (source.Has(kVolume)) {
-    entry.absorption = glm::dvec3(factors.absorption[0], factors.absorption[1], factors.absorption[2]);
-    entry.thickness = lanes::ReadFactor<kG, double>(source, factors.thickness, Slot::Thickness) * metres_per_unit;
-    for (int c = 0; c < 3; ++c) passing[c] = Exp(std::max(-entry.absorption[c] * entry.thickness, -700.0));
+    entry.absorption = FromLanes(in.transmission.absorption);
+    entry.thickness = thickness;
+    passing = FromLanes(closure.transmission.Passing(in.transmission.absorption, thickness));
   }
-  const double alpha = ThinWallAlpha(entry.at.alpha, entry.at.ior.y);
   for (const PunctualLight& punctual : light.punctual) {
     const auto sample = lanes::SamplePunctual(punctual, ToLanes(point.position));
-    const double lobe = ThinWallLobe(entry.at, alpha, sample.direction, lighting);
-    entry.punctual += entry.tint * passing * FromLanes(sample.irradiance) * lobe;
+    entry.punctual += passing * FromLanes(lanes::EvaluateTransmission(closure, sample.direction, lighting)) *
+                      FromLanes(sample.irradiance);
   }
   return entry;
 }
 
 // Chosen in proportion to its albedo, the single scattering is sampled by visible normals, which leaves G2 / G1 of
 // height-correlated Smith, (1 + lambda(v)) / (1 + lambda(v) + lambda(l)), and multiple scattering by the cosine.
-ThinWallSample PassThinWall(const ExactInterface& at, double ior, const AlbedoSurface& albedos,
-                            const glm::dvec2& random, double choice) {
-  const double alpha = ThinWallAlpha(at.alpha, ior);
+ThinWallSample PassThinWall(const ExactEntry& entry, const AlbedoSurface& albedos, const glm::dvec2& random,
+                            double choice) {
+  const ExactInterface& at = entry.at;
+  const double alpha = entry.thin_wall_alpha;
   if (!(alpha > 0.0)) return {-at.view, 1.0};
   const ExactLighting lighting(albedos);
   const double roughness = std::clamp(std::sqrt(alpha), double(lanes::kMinPerceptualRoughness), 1.0);

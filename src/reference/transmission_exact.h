@@ -27,6 +27,7 @@ ExactInterface ExitAt(const ExactMaterial& material, const SurfacePoint& point);
 // The surface where it is entered.
 struct ExactEntry {
   ExactInterface at;
+  double thin_wall_alpha = 0.0;  // GGX's width of a thin wall: narrower where the indices differ less
   // Of what is seen through it: base colour times transmission, without what is reflected here and by the layers above.
   glm::dvec3 tint{0.0};
   glm::dvec3 absorption{0.0};  // of the medium, per metre
@@ -44,8 +45,8 @@ struct ThinWallSample {
   glm::dvec3 direction{0.0};
   double weight = 1.0;
 };
-ThinWallSample PassThinWall(const ExactInterface& at, double ior, const AlbedoSurface& albedos,
-                            const glm::dvec2& random, double choice);
+ThinWallSample PassThinWall(const ExactEntry& entry, const AlbedoSurface& albedos, const glm::dvec2& random,
+                            double choice);
 
 // The normal of a microfacet, in proportion to its area as the view sees it; that of the surface if it is smooth.
 glm::dvec3 SampleFacet(const ExactInterface& at, const glm::dvec2& random);
