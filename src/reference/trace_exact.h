@@ -14,6 +14,8 @@
 //   - Light that is bent on its way to a surface (caustics): lamps and the environment light the surfaces inside or
 //     behind glass as if it were not there.
 //   - What has been refracted or reflected kMostCrossings times and is still on its way: it counts as black.
+//   - A camera inside a medium: it is taken to be outside of all.
+//   - Anisotropy of what passes: microfacets are as wide along the tangent as across.
 //   - Points and lines, which have no place in space (ExactRays).
 #pragma once
 

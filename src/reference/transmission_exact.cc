@@ -46,8 +46,11 @@ double ThinWallLobe(const ExactInterface& at, double alpha, const lanes::Vec3<do
 
 ExactInterface ExitAt(const ExactMaterial& material, const SurfacePoint& point) {
   const ExactSource source{material, point};
+  const MaterialFactors& factors = source.Factors();
   const double roughness =
-      lanes::ReadFactor<kG, double>(source, source.Factors().perceptual_roughness, Slot::MetallicRoughness);
+      material.Frame().model == ShadingModel::SpecularGlossiness
+          ? 1.0 - lanes::ReadFactor<kA, double>(source, factors.glossiness, Slot::SpecularGlossiness)
+          : lanes::ReadFactor<kG, double>(source, factors.perceptual_roughness, Slot::MetallicRoughness);
   return InterfaceAt(source, point, roughness);
 }
 
