@@ -5,8 +5,8 @@
 // at a microfacet by Snell's law, is absorbed along its way, and is refracted again where it leaves the mesh, at the
 // back of a triangle; where Snell's law has no solution there, all is reflected inside. Dispersion sends a ray for each
 // of red, green and blue. Media may lie inside others. Where a ray does not meet a back of the same mesh, the mesh is
-// not closed, and the medium is a slab of the stated thickness, as in the rasterizer; also where a volume is first seen
-// from behind: then the surface is a thin wall.
+// not closed, and the medium is a slab of the stated thickness, as in the rasterizer. A back that is not an exit, of a
+// double-sided material, is a thin wall, likewise.
 //
 // What the rays meet is shaded as the camera would see it from there. Not part of the model:
 //   - The reflection of light by the inside of a surface, unless it reflects all; so what goes in comes out. The base
@@ -14,6 +14,8 @@
 //   - Light that is bent on its way to a surface (caustics): lamps and the environment light the surfaces inside or
 //     behind glass as if it were not there.
 //   - What has been refracted or reflected kMostCrossings times and is still on its way: it counts as black.
+//   - A camera inside a medium: it is taken to be outside of all.
+//   - Anisotropy of what passes: microfacets are as wide along the tangent as across.
 //   - Points and lines, which have no place in space (ExactRays).
 #pragma once
 

@@ -26,8 +26,11 @@ ExactInterface InterfaceAt(const ExactSource& source, const SurfacePoint& point,
 
 ExactInterface ExitAt(const ExactMaterial& material, const SurfacePoint& point) {
   const ExactSource source{material, point};
+  const MaterialFactors& factors = source.Factors();
   const double roughness =
-      lanes::ReadFactor<kG, double>(source, source.Factors().perceptual_roughness, Slot::MetallicRoughness);
+      material.Frame().model == ShadingModel::SpecularGlossiness
+          ? 1.0 - lanes::ReadFactor<kA, double>(source, factors.glossiness, Slot::SpecularGlossiness)
+          : lanes::ReadFactor<kG, double>(source, factors.perceptual_roughness, Slot::MetallicRoughness);
   return InterfaceAt(source, point, roughness);
 }
 
