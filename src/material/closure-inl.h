@@ -102,7 +102,9 @@ struct Closure {
       diffuse_transmission = DiffuseTransmissionLobe<T>(in.diffuse_transmission, metallic, diffuse);
       if (Has(kTransmission)) diffuse_transmission.color = diffuse_transmission.color * (one - in.transmission);
     }
-    if (Has(kSheen)) sheen = SheenLobe<T>(at, in.sheen, lighting);
+    if constexpr ((kPossible & kSheen) != 0) {
+      if (Has(kSheen)) sheen = SheenLobe<T>(at, in.sheen, lighting);
+    }
     if (Has(kClearcoat)) clearcoat = ClearcoatLobe<T>(in.clearcoat, view, lighting);
   }
 
@@ -121,10 +123,12 @@ struct Closure {
     Interface<T> dielectric{{T(kF0), T(kF0), T(kF0)}, T(1.0f)};
     if (Has(kSpecular | kIor)) dielectric = in.dielectric;
     Vec3<T> metal = base;
-    if (Has(kIridescence)) {
-      const ThinFilm<T> film(in.film, at.n_dot_v);
-      if (Has(kDiffuseLobe)) dielectric.f0 = film.F0Over(dielectric.f0);
-      metal = film.F0Over(metal);
+    if constexpr ((kPossible & kIridescence) != 0) {
+      if (Has(kIridescence)) {
+        const ThinFilm<T> film(in.film, at.n_dot_v);
+        if (Has(kDiffuseLobe)) dielectric.f0 = film.F0Over(dielectric.f0);
+        metal = film.F0Over(metal);
+      }
     }
     const T average_roughness =
         Has(kAnisotropy) ? anisotropic.AverageAlbedoRoughness() : microfacets.perceptual_roughness;
@@ -148,7 +152,9 @@ HWY_INLINE Vec3<T> EvaluateClosure(const Closure<T, kPossible>& c, Vec3<T> direc
 
   Vec3<T> brdf = c.specular.Direct(single, from.v_dot_h, light_albedo);
   if (c.Has(kDiffuseLobe)) brdf += c.diffuse.Direct(c.specular, light_albedo);
-  if (c.Has(kSheen)) brdf = brdf * c.sheen.EnergyLeft() + c.sheen.Direct(c.at, from);
+  if constexpr ((kPossible & kSheen) != 0) {
+    if (c.Has(kSheen)) brdf = brdf * c.sheen.EnergyLeft() + c.sheen.Direct(c.at, from);
+  }
   Vec3<T> reflected = Select<T>(n_dot_l > T(0.0f), brdf * from.n_dot_l, Vec3<T>{});
   if (c.Has(kDiffuseTransmission)) {
     Vec3<T> passed =
