@@ -69,8 +69,8 @@ Json ToJson(const MeshSummary& mesh) {
   return json;
 }
 
-// The key of a number or colour: its name in glTF, "metallicFactor", as "metallic_factor". What belongs to a texture has
-// the texture's name before its own: "scale" of "clearcoatNormalTexture" is "clearcoat_normal_scale".
+// The key of a number or colour: its name in glTF, "metallicFactor", as "metallic_factor". What belongs to a texture
+// has the texture's name before its own: "scale" of "clearcoatNormalTexture" is "clearcoat_normal_scale".
 template <class Value>
 std::string KeyOf(const Parameter<Value>& parameter) {
   if (parameter.key != nullptr) return parameter.key;

@@ -285,8 +285,8 @@ TEST(Pose, MakesNoTangentsThatNobodyReads) {
   for (const Topology topology : {Topology::Points, Topology::Lines, Topology::LineLoop, Topology::LineStrip,
                                   Topology::Triangles, Topology::TriangleStrip, Topology::TriangleFan}) {
     square.topology = topology;
-    square.indices =
-        topology == Topology::Triangles ? std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3} : std::vector<std::uint32_t>{};
+    square.indices = topology == Topology::Triangles ? std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3}
+                                                     : std::vector<std::uint32_t>{};
     Scene scene = SceneOf(square);
     AddNormalMap(scene);
     const auto has_tangents = [](const Scene& s) {
