@@ -44,11 +44,9 @@ HWY_INLINE void ShadeOne(const ShadingTask& task, int first) {
   in.occlusion = number(5);
   in.emissive = vector(6);
   in.normal = vector(9);
-  if (task.anisotropic) {
-    const Vec3<T> tangent = NormalizeOr(Cross(in.normal, vector(15)), vector(12));
-    in.anisotropy = {tangent, Cross(in.normal, tangent), number(6)};
-    in.lobes |= kAnisotropy;
-  }
+  const Vec3<T> tangent = NormalizeOr(Cross(in.normal, vector(15)), vector(12));
+  in.anisotropy = {tangent, Cross(in.normal, tangent), number(6)};
+  if (task.anisotropic) in.lobes |= kAnisotropy;
   const Vec3<T> out = ShadeClosure(in, vector(12), vector(15), LightingView<T>(*task.lighting));
   StoreAs(out.x, task.out + first);
   StoreAs(out.y, task.out + task.count + first);

@@ -21,7 +21,7 @@ const float kRoughnesses[] = {0.0f, 1e-6f, 0.045f, 0.3f, 1.0f};
 const float kCosines[] = {1.0f, kBelowOne, 0.5f, 0.1f, 1e-2f, 1e-4f, 1e-8f};
 
 const LightingData& NoLighting() {
-  static const LightingData data = MakeLightingData({}, nullptr, 0.0, 1.0, /*sheen=*/true);
+  static const LightingData data = MakeLightingData({}, nullptr, 0.0, 1.0, {.sheen = true, .anisotropic_dfg = true});
   return data;
 }
 
