@@ -33,6 +33,9 @@ class FragmentShader {
   virtual void Shade(const ShadeTask& task) const = 0;
   // A shader that declares less than it reads finds neither lights nor an environment.
   virtual LightUse Light() const { return LightUse::LitMaterials; }
+  // Whether materials with transmission stay transparent, because Shade() fills ShadeTask::seen_through. Those of other
+  // shaders are as opaque as their alpha mode says.
+  virtual bool Transmits() const { return false; }
 };
 
 }  // namespace facet

@@ -4,7 +4,7 @@
 
 namespace facet {
 
-void Compositor::ByPixel::Fill(const FragmentList& list, std::size_t pixel_count) {
+void FragmentsByPixel::Fill(const FragmentList& list, std::size_t pixel_count) {
   first.assign(pixel_count + 1, 0);
   order.resize(list.Size());
   for (const std::uint16_t p : list.pixel) ++first[p + 1u];
@@ -47,12 +47,7 @@ void Compositor::Composite(const TileBuffers& tile, const ShadedFragments& opaqu
         const std::uint32_t i = layers_of_.order[k];
         if (blended.list.samples[i] >> s & 1) layers_.push_back({DepthAt(planes_[k - begin], sample_x, sample_y), i});
       }
-      // Indices of fragments follow submission order, so this sorts stably, without the memory of a stable sort.
-      if (layers_.size() > 1) {
-        std::sort(layers_.begin(), layers_.end(), [](const Layer& a, const Layer& b) {
-          return a.depth != b.depth ? a.depth < b.depth : a.fragment < b.fragment;
-        });
-      }
+      if (layers_.size() > 1) std::sort(layers_.begin(), layers_.end(), IsBehind);
       for (const Layer& layer : layers_) {
         const std::uint32_t i = layer.fragment;
         const float a = blended.alpha[i];

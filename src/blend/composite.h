@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "blend/layers_by_pixel.h"
 #include "frame/tile.h"
 
 namespace facet {
@@ -27,17 +28,7 @@ class Compositor {
                  std::span<const ScreenTriangle* const> records, const std::vector<glm::vec4>& background,
                  std::vector<glm::vec4>& pixels);
 
-  // Fragments by pixel: those of pixel p are order[first[p]] to order[first[p + 1] - 1], in the order of their list.
-  struct ByPixel {
-    std::vector<std::uint32_t> first, next, order;
-    void Fill(const FragmentList& list, std::size_t pixel_count);
-  };
-  struct Layer {
-    float depth;
-    std::uint32_t fragment;
-  };
-
-  ByPixel layers_of_, opaque_of_;
+  FragmentsByPixel layers_of_, opaque_of_;
   std::vector<BlockDepth> planes_;
   std::vector<Layer> layers_;
 };

@@ -42,6 +42,7 @@ struct FrameDrawable {
   glm::dvec4 screen_from_mesh[3];
   glm::dmat3x4 eye_relative_from_mesh{0.0};  // three rows; world axes, origin at the eye
   glm::dmat3 normal_from_mesh{1.0};          // cofactor matrix of the upper left 3 x 3, valid if singular
+  float metres_per_unit = 1.0f;              // of the mesh: the cube root of its determinant's absolute value
 };
 
 enum OutcodeBit : std::int32_t {

@@ -24,12 +24,31 @@ struct FragmentList {
   void Push(std::uint16_t p, std::int32_t r, std::uint8_t s) { pixel.push_back(p), record.push_back(r), samples.push_back(s); }
 };
 
+// What fragments of surfaces with transmission do to what is seen through them: see SeenThroughOutputs (shade_task.h).
+// All zero for fragments of other surfaces.
+struct SeenThroughFragments {
+  static constexpr std::size_t kArrays = 10;
+  std::vector<float> tint[3], shift_x[3], shift_y[3], blur;
+
+  void Resize(std::size_t count) {
+    for (auto* channels : {tint, shift_x, shift_y}) {
+      for (int c = 0; c < 3; ++c) channels[c].resize(count);
+    }
+    blur.resize(count);
+  }
+};
+
 // Fragments with their colours: linear radiance, not multiplied by alpha.
 struct ShadedFragments {
   FragmentList list;
   std::vector<float> red, green, blue, alpha;
+  bool has_seen_through = false;
+  SeenThroughFragments seen_through;  // sized if has_seen_through
 
-  void Resize() { for (auto* v : {&red, &green, &blue, &alpha}) v->resize(list.Size()); }
+  void Resize() {
+    for (auto* v : {&red, &green, &blue, &alpha}) v->resize(list.Size());
+    if (has_seen_through) seen_through.Resize(list.Size());
+  }
 };
 
 // Depth and triangle id of every sample. The arrays are ordered by blocks of 8 x 8 pixels; a block holds one plane of

@@ -6,6 +6,7 @@
 //     with a thin film       lobes/iridescence-inl.h
 //   diffuse reflection       lobes/diffuse-inl.h
 //   diffuse transmission     lobes/diffuse_transmission-inl.h
+//   transmission, volume     lobes/transmission-inl.h
 //
 // Each layer passes down exactly the share of light that it does not reflect towards the view. The core (Khronos, glTF
 // 2.0 Specification, appendix B) is reciprocal; a layer over it is not, as in the extensions' own texts. A white base
@@ -32,6 +33,7 @@
 #include "material/lobes/iridescence-inl.h"
 #include "material/lobes/sheen-inl.h"
 #include "material/lobes/specular-inl.h"
+#include "material/lobes/transmission-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace facet {
@@ -59,7 +61,7 @@ struct MaterialInputs {
   SheenInputs<T> sheen;
   FilmInputs<T> film;
   AnisotropyInputs<T> anisotropy;
-  T transmission{};  // [0, 1]
+  TransmissionInputs<T> transmission;
   DiffuseTransmissionInputs<T> diffuse_transmission;
 };
 
@@ -86,6 +88,7 @@ struct Closure {
   DiffuseTransmissionLobe<T> diffuse_transmission;
   ClearcoatLobe<T> clearcoat;
   SheenLobe<T> sheen;
+  TransmissionLobe<T> transmission;
 
   template <class Lighting>
   HWY_INLINE Closure(const MaterialInputs<T>& in, const Vec3<T>& view, const Lighting& lighting)
@@ -99,15 +102,21 @@ struct Closure {
     if (Has(kAnisotropy)) anisotropic = AnisotropicMicrofacets<T>(in.perceptual_roughness, in.anisotropy);
     specular = MakeSpecular(in, base, metallic, lighting);
     diffuse = DiffuseLobe<T>(base, metallic, specular);
-    if (Has(kTransmission)) diffuse.color = diffuse.color * (one - in.transmission);
+    if (Has(kTransmission)) diffuse.color = diffuse.color * (one - in.transmission.factor);
     if (Has(kDiffuseTransmission)) {
       diffuse_transmission = DiffuseTransmissionLobe<T>(in.diffuse_transmission, metallic, diffuse);
-      if (Has(kTransmission)) diffuse_transmission.color = diffuse_transmission.color * (one - in.transmission);
+      if (Has(kTransmission)) diffuse_transmission.color = diffuse_transmission.color * (one - in.transmission.factor);
     }
     if constexpr ((kPossible & kSheen) != 0) {
       if (Has(kSheen)) sheen = SheenLobe<T>(at, in.sheen, lighting);
     }
     if (Has(kClearcoat)) clearcoat = ClearcoatLobe<T>(in.clearcoat, view, lighting);
+    if (Has(kTransmission)) {
+      transmission = TransmissionLobe<T>(in.transmission, Has(kVolume), base, metallic, in.perceptual_roughness);
+      transmission.color = transmission.color * diffuse.left_for_view;
+      if (Has(kSheen)) transmission.color = transmission.color * sheen.EnergyLeft();
+      if (Has(kClearcoat)) transmission.color = transmission.color * clearcoat.EnergyLeft();
+    }
   }
 
   HWY_INLINE bool Has(MaterialFeatures lobe) const { return (kPossible & lobe) != 0 && (lobes & lobe) != 0; }
@@ -199,18 +208,34 @@ HWY_INLINE Vec3<T> EmissionThroughLayers(const Closure<T, kPossible>& c, const M
   return c.Has(kClearcoat) ? in.emissive * c.clearcoat.EnergyLeft() : in.emissive;
 }
 
-// Radiance towards the eye. `view`: unit, from the surface to the eye; `position`: relative to the eye, world axes.
-template <class T, MaterialFeatures kPossible = kAllLobes, class Lighting>
-HWY_INLINE Vec3<T> ShadeClosure(const MaterialInputs<T>& in, Vec3<T> view, Vec3<T> position, const Lighting& lighting) {
-  const Closure<T, kPossible> closure(in, view, lighting);
+// The transmission's part of the BSDF times the cosine, for light from behind the surface.
+template <class T, MaterialFeatures kPossible, class Lighting>
+HWY_INLINE Vec3<T> EvaluateTransmission(const Closure<T, kPossible>& c, Vec3<T> direction, const Lighting& lighting) {
+  return c.transmission.color * c.transmission.Direct(c.at, direction, lighting);
+}
+
+// Radiance towards the eye, except for what is seen through the surface. `closure`: of `in`; `position`: relative to
+// the eye, world axes.
+template <class T, MaterialFeatures kPossible, class Lighting>
+HWY_INLINE Vec3<T> ShadeClosure(const Closure<T, kPossible>& closure, const MaterialInputs<T>& in, Vec3<T> position,
+                                const Lighting& lighting) {
   Vec3<T> radiance = EmissionThroughLayers(closure, in);
   if (lighting.HasEnvironment()) radiance += EvaluateEnvironment(closure, in, lighting) * in.occlusion;
   const int light_count = lighting.LightCount();
   for (int i = 0; i < light_count; ++i) {
     const LightSample<T> light = lighting.Sample(i, position);
     radiance += EvaluateClosure(closure, light.direction, lighting) * light.irradiance;
+    if (closure.Has(kTransmission)) {
+      radiance += EvaluateTransmission(closure, light.direction, lighting) * light.irradiance;
+    }
   }
   return radiance;
+}
+
+// `view`: unit, from the surface to the eye.
+template <class T, MaterialFeatures kPossible = kAllLobes, class Lighting>
+HWY_INLINE Vec3<T> ShadeClosure(const MaterialInputs<T>& in, Vec3<T> view, Vec3<T> position, const Lighting& lighting) {
+  return ShadeClosure(Closure<T, kPossible>(in, view, lighting), in, position, lighting);
 }
 
 }  // namespace HWY_NAMESPACE

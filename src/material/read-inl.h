@@ -108,6 +108,19 @@ HWY_INLINE AnisotropyInputs<T> ReadAnisotropy(const Source& from, const Vec3<T>&
   return {tangent, Cross(normal, tangent), Clamp(strength, zero, one)};
 }
 
+template <class T, class Source>
+HWY_INLINE TransmissionInputs<T> ReadTransmission(const Source& from, bool has_volume) {
+  const MaterialFactors& f = from.Factors();
+  TransmissionInputs<T> in{};
+  in.factor = ReadFactor<kR, T>(from, f.transmission, Slot::Transmission);
+  in.ior = {T(f.ior[0]), T(f.ior[1]), T(f.ior[2])};
+  if (has_volume) {
+    in.thickness = ReadFactor<kG, T>(from, f.thickness, Slot::Thickness);
+    in.absorption = {T(f.absorption[0]), T(f.absorption[1]), T(f.absorption[2])};
+  }
+  return in;
+}
+
 // `base`: the base colour with its alpha. `features`: of the material. `kPossible`: those of its lobes that are read.
 template <class T, MaterialFeatures kPossible = kAllLobes, class Source>
 HWY_INLINE MaterialInputs<T> ReadInputs(const Source& from, const Vec4<T>& base, MaterialFeatures features) {
@@ -140,7 +153,7 @@ HWY_INLINE MaterialInputs<T> ReadInputs(const Source& from, const Vec4<T>& base,
   }
   if (has(kIridescence)) in.film = ReadFilm<T>(from);
   if (has(kAnisotropy)) in.anisotropy = ReadAnisotropy<T>(from, in.normal);
-  if (has(kTransmission)) in.transmission = ReadFactor<kR, T>(from, f.transmission, Slot::Transmission);
+  if (has(kTransmission)) in.transmission = ReadTransmission<T>(from, has(kVolume));
   if (has(kDiffuseTransmission)) {
     in.diffuse_transmission = {ReadFactor<kA, T>(from, f.diffuse_transmission, Slot::DiffuseTransmission),
                                ReadColor<T>(from, f.diffuse_transmission_color, Slot::DiffuseTransmissionColor)};

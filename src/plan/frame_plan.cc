@@ -56,6 +56,7 @@ class Planner {
     const bool has_own =
         index >= 0 && i < settings_.material_shaders.size() && settings_.material_shaders[i] != nullptr;
     f.shader = has_own ? settings_.material_shaders[i] : settings_.shader;
+    f.is_seen_through = f.Has(kTransmission) && (f.shader == nullptr || f.shader->Transmits());
     ForEachSlot(f.features, [&](Slot slot) { BindTexture(material, slot, planned); });
     return planned;
   }
@@ -210,6 +211,8 @@ FramePlan MakeFramePlan(const Scene& scene, const PosedScene& posed, const Rende
   plan.punctual_lights = lit && !posed.lights.empty() && !asked_out(Feature::PunctualLights);
   plan.alpha_test = any([](const FrameMaterial& m) { return m.alpha_mode == AlphaMode::Mask; });
   plan.blending = any([](const FrameMaterial& m) { return m.alpha_mode == AlphaMode::Blend; });
+
+  plan.transmission = any([](const FrameMaterial& m) { return m.is_seen_through; });
 
   decide(plan.environment_light, Feature::EnvironmentLight, "environment light",
          !has_environment ? "no environment"

@@ -51,6 +51,7 @@ struct FramePlan {
   bool alpha_test = false;
   bool blending = false;
   AlbedoTables albedo_tables;     // that some material needs
+  bool transmission = false;      // some material is seen through
   std::vector<PlaneKind> planes;  // of the film, besides colour
   bool zero_light = false;        // add a light of intensity zero
   bool every_texture = false;  // decode textures even if no visible material reads them

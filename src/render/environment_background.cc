@@ -37,4 +37,30 @@ void EnvironmentBackground::CompositeUnder(const TileBuffers& tile, std::vector<
   }
 }
 
+void EnvironmentBackground::AddSeen(EnvironmentSeen& seen, std::vector<glm::vec4>& pixels) const {
+  const std::size_t count = seen.Size(), padded = (count + kTaskPadding - 1) / kTaskPadding * kTaskPadding;
+  if (count == 0) return;
+  for (auto* v : {&seen.x, &seen.y, &seen.roughness}) v->resize(padded, v->back());
+  std::vector<float> light(3 * padded);
+  EnvironmentTask task;
+  for (int c = 0; c < 3; ++c) {
+    const glm::dvec3& axis = view_->camera_from_world[c];  // as MakeViewDirections()
+    double whole = axis.z * -1.0;
+    if (view_->perspective) {
+      task.column[c] = static_cast<float>(axis.x / view_->screen_x.x);
+      task.row[c] = static_cast<float>(axis.y / view_->screen_y.y);
+      whole -= axis.x * (view_->width * 0.5 / view_->screen_x.x) + axis.y * (view_->height * 0.5 / view_->screen_y.y);
+    }
+    task.whole[c] = static_cast<float>(whole);
+  }
+  task.x = seen.x.data(), task.y = seen.y.data(), task.roughness = seen.roughness.data();
+  task.count = count;
+  task.lighting = lighting_;
+  task.red = light.data(), task.green = task.red + padded, task.blue = task.green + padded;
+  LookUpEnvironment(task);
+  for (std::size_t i = 0; i < count; ++i) {
+    pixels[seen.pixel[i]] += glm::vec4(glm::vec3(task.red[i], task.green[i], task.blue[i]) * seen.weight[i], 0.0f);
+  }
+}
+
 }  // namespace facet

@@ -4,6 +4,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "blend/composite_through.h"
 #include "frame/tile.h"
 #include "light/lighting.h"
 
@@ -25,13 +26,18 @@ class EnvironmentBackground {
   // A transparent background.
   EnvironmentBackground() = default;
   EnvironmentBackground(const FrameView& view, const LightingData& lighting)
-      : lighting_(&lighting), directions_(MakeViewDirections(view)) {}
+      : lighting_(&lighting), view_(&view), directions_(MakeViewDirections(view)) {}
 
   // Changes the pixels that are not completely covered. `pixels`: of the tile, tile_size a row.
   void CompositeUnder(const TileBuffers& tile, std::vector<glm::vec4>& pixels) const;
 
+  bool IsEnvironment() const { return lighting_ != nullptr; }
+  // Adds the environment where it is seen past surfaces with transmission. Fills up the arrays of `seen`.
+  void AddSeen(EnvironmentSeen& seen, std::vector<glm::vec4>& pixels) const;
+
  private:
   const LightingData* lighting_ = nullptr;
+  const FrameView* view_ = nullptr;
   ViewDirections directions_;
 };
 

@@ -58,7 +58,9 @@ FrameDrawable MakeFrameDrawable(const FrameView& view, const Drawable& drawable)
   out.primitive_count = PrimitiveCount(*drawable.geometry);
   const glm::dmat3 linear(drawable.world_from_mesh);
   const glm::dvec3 origin_eye = glm::dvec3(drawable.world_from_mesh[3]) - view.eye_world;
-  out.mirrored = glm::determinant(linear) < 0.0;
+  const double determinant = glm::determinant(linear);
+  out.mirrored = determinant < 0.0;
+  out.metres_per_unit = RoundToFiniteFloat(Cbrt(std::fabs(determinant)));
   // Columns of the cofactor matrix; its sign follows the determinant's, normals do not.
   const glm::dmat3 cofactors(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
                              glm::cross(linear[0], linear[1]));

@@ -112,7 +112,8 @@ MemoryLease ListTiles(const FramePlan& plan, int first, int end, FrameGeometry& 
   }
   for (std::size_t i = 0; i < frame.chunks.size(); ++i) {
     const TriangleChunk& chunk = frame.chunks[i];
-    const AlphaMode mode = plan.materials[std::size_t(frame.drawables[chunk.drawable].material)].frame.alpha_mode;
+    const FrameMaterial& material = plan.materials[std::size_t(frame.drawables[chunk.drawable].material)].frame;
+    const AlphaMode mode = material.is_seen_through ? AlphaMode::Blend : material.alpha_mode;
     auto& lists = mode == AlphaMode::Opaque ? frame.lists.opaque
                   : mode == AlphaMode::Mask ? frame.lists.masked
                                             : frame.lists.blended;

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <chrono>
 #include <new>
+#include <optional>
 #include <utility>
 
 #include "base/memory_budget.h"
 #include "base/pages.h"
 #include "base/parallel.h"
+#include "blend/backdrop.h"
 #include "facet/error.h"
 #include "facet/shader/dispatch.h"
 #include "film/encode_pixels.h"
@@ -135,7 +137,20 @@ class Renderer::Frames {
     stats.environment_seconds = stage.Lap();
 
     const TiledView tiled{view, geometry_, attributes, materials, grid, settings.samples};
-    const TilePassInput input{tiled, lighting, /*cull_lights=*/!settings.HasShaders(), background, settings.progress};
+    TilePassInput input{tiled, lighting, /*cull_lights=*/!settings.HasShaders(), background, settings.progress};
+    // The backdrop is of the whole picture, whatever the bands: surfaces show what is anywhere in it.
+    std::optional<Backdrop> backdrop;
+    if (IsSeenThrough(plan)) {
+      backdrop.emplace(settings.width, settings.height);
+      for (int row = 0; row < grid.rows; row += band_tiles) {
+        const int end = std::min(row + band_tiles, grid.rows);
+        const MemoryLease lists = ListTiles(plan, row * grid.columns, end * grid.columns, geometry_);
+        CollectBackdrop(input, row, end, *backdrop, stats);
+      }
+      backdrop->Finish();
+      input.backdrop = &*backdrop;
+      stats.raster_seconds += stage.Lap();
+    }
     TileOutput pixels{nullptr, output.encode, {}};
     if (output.film != nullptr) {
       PrepareFilm(settings.width, band_rows, *output.film);
@@ -165,6 +180,14 @@ class Renderer::Frames {
   }
 
  private:
+  // Whether some visible material is.
+  bool IsSeenThrough(const FramePlan& plan) const {
+    for (std::size_t i = 0; plan.transmission && i < plan.materials.size(); ++i) {
+      if (geometry_.material_visible[i] && plan.materials[i].frame.is_seen_through) return true;
+    }
+    return false;
+  }
+
   const Scene& scene_;
   FramePose pose_;
   KnownBall known_ball_;

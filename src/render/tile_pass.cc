@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <memory>
 #include <mutex>
 #include <utility>
 
 #include "base/parallel.h"
 #include "blend/composite.h"
+#include "blend/composite_through.h"
 #include "render/tile_lights.h"
 #include "render/tile_shading.h"
 #include "render/tile_visibility.h"
@@ -28,7 +30,9 @@ class TileWorker {
       : in_(input),
         shading_(input.view, positions),
         visibility_(input.view, shading_),
-        lights_(input.view.view, input.lighting, input.cull_lights) {}
+        lights_(input.view.view, input.lighting, input.cull_lights) {
+    blended_.has_seen_through = input.backdrop != nullptr;
+  }
 
   // `t`: the index of the tile in the output, whose top row of tiles is `first_row` of the grid.
   void Run(std::size_t t, int first_row, const TileOutput& output, TileCounts& counts) {
@@ -37,15 +41,8 @@ class TileWorker {
     opaque_.list.Clear();
     blended_.list.Clear();
     const bool touched = visibility_.Begin(column, first_row + row, t);
-    if (touched) {
-      visibility_.Draw();
-      VisibleFragments(visibility_.Buffers(), opaque_.list);
-      Shade(opaque_, counts);
-      counts.shaded += opaque_.list.Size();
-      ResolveOpaque(visibility_.Buffers(), opaque_, pixels_);
-    } else {
-      pixels_.assign(std::size_t(grid.tile_size) * std::size_t(grid.tile_size), glm::vec4(0.0f));
-    }
+    const bool is_known = in_.backdrop != nullptr && output.planes.empty() && !visibility_.HasBlended();
+    is_known ? in_.backdrop->GetTile(visibility_.Buffers(), pixels_) : DrawOpaque(touched, counts);
     in_.background.CompositeUnder(visibility_.Buffers(), pixels_);
     if (visibility_.HasBlended()) Blend(counts);
     const std::size_t first =
@@ -59,7 +56,29 @@ class TileWorker {
     CountCovered(counts);
   }
 
+  // The same, for the backdrop.
+  void Run(std::size_t t, int first_row, Backdrop& backdrop, TileCounts& counts) {
+    const int columns = in_.view.grid.columns, column = static_cast<int>(t) % columns;
+    opaque_.list.Clear();
+    const bool touched = visibility_.Begin(column, first_row + static_cast<int>(t) / columns, t);
+    if (touched) DrawOpaque(touched, counts);
+    backdrop.SetTile(visibility_.Buffers(), !touched, pixels_);
+  }
+
  private:
+  void DrawOpaque(bool touched, TileCounts& counts) {
+    if (touched) {
+      visibility_.Draw();
+      VisibleFragments(visibility_.Buffers(), opaque_.list);
+      Shade(opaque_, counts);
+      counts.shaded += opaque_.list.Size();
+      ResolveOpaque(visibility_.Buffers(), opaque_, pixels_);
+    } else {
+      const auto size = static_cast<std::size_t>(in_.view.grid.tile_size);
+      pixels_.assign(size * size, glm::vec4(0.0f));
+    }
+  }
+
   void Shade(ShadedFragments& fragments, TileCounts& counts) {
     const TileBuffers& tile = visibility_.Buffers();
     const TileRecords& records = visibility_.Records();
@@ -68,12 +87,20 @@ class TileWorker {
   }
 
   void Blend(TileCounts& counts) {
-    visibility_.CollectBlended(blended_.list);
+    visibility_.CollectBlended(in_.backdrop != nullptr, blended_.list);
     Shade(blended_, counts);
     counts.blended += blended_.list.Size();
     background_.assign(pixels_.size(), glm::vec4(0.0f));
     in_.background.CompositeUnder(visibility_.Buffers(), background_);
-    compositor_.Run(visibility_.Buffers(), opaque_, blended_, visibility_.Records().All(), background_, pixels_);
+    if (in_.backdrop == nullptr) {
+      compositor_.Run(visibility_.Buffers(), opaque_, blended_, visibility_.Records().All(), background_, pixels_);
+      return;
+    }
+    const ThroughView view{in_.view.view.perspective, static_cast<float>(std::fabs(in_.view.view.screen_y.y)),
+                           in_.background.IsEnvironment()};
+    through_.Run(view, visibility_.Buffers(), opaque_, blended_, visibility_.Records().All(), *in_.backdrop,
+                 background_, pixels_, environment_seen_);
+    in_.background.AddSeen(environment_seen_, pixels_);
   }
 
   // `first`: the index of the tile's first pixel in the output.
@@ -110,6 +137,8 @@ class TileWorker {
   TileLights lights_;
   ShadedFragments opaque_, blended_;
   Compositor compositor_;
+  ThroughCompositor through_;
+  EnvironmentSeen environment_seen_;
   PlaneResolver planes_;
   TilePixels background_, pixels_;
 };
@@ -139,6 +168,18 @@ class WorkerPool {
 };
 
 }  // namespace
+
+void CollectBackdrop(const TilePassInput& input, int first_row, int end_row, Backdrop& backdrop, RenderStats& stats) {
+  WorkerPool pool(input);
+  const std::size_t tile_count = std::size_t((end_row - first_row) * input.view.grid.columns);
+  std::vector<TileCounts> counts(tile_count);
+  ParallelFor(tile_count, 1, [&](std::size_t begin, std::size_t end) {
+    std::unique_ptr<TileWorker> worker = pool.Take();
+    for (std::size_t i = begin; i < end; ++i) worker->Run(i, first_row, backdrop, counts[i]);
+    pool.Return(std::move(worker));
+  });
+  for (const TileCounts& c : counts) stats.fragments_shaded += c.shaded;
+}
 
 void RunTiles(const TilePassInput& input, int first_row, int end_row, const TileOutput& output, RenderStats& stats) {
   WorkerPool pool(input);

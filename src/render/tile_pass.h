@@ -5,6 +5,7 @@
 #include <glm/glm.hpp>
 #include <span>
 
+#include "blend/backdrop.h"
 #include "facet/planes.h"
 #include "facet/render.h"
 #include "film/encode_pixels.h"
@@ -20,6 +21,8 @@ struct TilePassInput {
   bool cull_lights = true;  // false: shaders get every light at every fragment
   const EnvironmentBackground& background;
   const std::function<void(double)>& progress;  // may be empty
+  // What is behind surfaces that are seen through, from CollectBackdrop(); null: there are none.
+  const Backdrop* backdrop = nullptr;
 };
 
 // Where the pixels of tiles go: to a film, or to an image, for which each tile is tone-mapped and encoded while it is
@@ -29,6 +32,10 @@ struct TileOutput {
   EncodeTask encode;
   std::span<Plane> planes;  // besides colour
 };
+
+// Draws the opaque surfaces of the rows of tiles [first_row, end_row), which the geometry has lists for, and puts them
+// into the backdrop.
+void CollectBackdrop(const TilePassInput& input, int first_row, int end_row, Backdrop& backdrop, RenderStats& stats);
 
 // Draws the rows of tiles [first_row, end_row) of the grid, which the geometry has lists for. The output, which is
 // large enough for them, begins with the first. Adds to the counts of `stats`.

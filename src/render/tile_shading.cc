@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <numeric>
 
 #include "facet/shader.h"
@@ -117,12 +118,18 @@ void TileShading::ShadePart(const Batch& batch, ShadedFragments& fragments) {
   task.blue = blue_.data();
   task.alpha = alpha_.data();
   task.non_finite = batch.non_finite;
+  const bool is_seen_through = fragments.has_seen_through && batch.material.is_seen_through;
+  SeenThroughOutputs seen_through;
+  if (is_seen_through) seen_through = PrepareSeenThrough(padded, task), task.seen_through = &seen_through;
   if (alpha_only) {
     ShadeAlpha(task);
   } else if (batch.material.shader != nullptr) {
     batch.material.shader->Shade(task);
   } else {
     ShadeFragments(task);
+  }
+  if (fragments.has_seen_through) {
+    PutSeenThrough(is_seen_through, batch.material.Has(kDispersion), fragments.seen_through);
   }
   if (n == fragments.list.Size()) {  // all, and in their order
     fragments.alpha.swap(alpha_);
@@ -136,6 +143,39 @@ void TileShading::ShadePart(const Batch& batch, ShadedFragments& fragments) {
     if (alpha_only) continue;
     fragments.red[f] = red_[i], fragments.green[f] = green_[i], fragments.blue[f] = blue_[i];
   }
+}
+
+SeenThroughOutputs TileShading::PrepareSeenThrough(std::size_t padded, ShadeTask& task) {
+  seen_through_.Resize(padded);
+  SeenThroughOutputs out;
+  for (int c = 0; c < 3; ++c) {
+    out.tint[c] = seen_through_.tint[c].data();
+    out.shift_x[c] = seen_through_.shift_x[c].data();
+    out.shift_y[c] = seen_through_.shift_y[c].data();
+  }
+  out.blur = seen_through_.blur.data();
+  const FrameView& view = view_.view;
+  const glm::dvec3 rows[3] = {view.screen_x, view.screen_y, {0.0, 0.0, -1.0}};
+  for (int i = 0; i < 3; ++i) {
+    const glm::dvec3 row = rows[i] * view.camera_from_world;
+    for (int c = 0; c < 3; ++c) task.screen_from_eye[i][c] = static_cast<float>(row[c]);
+  }
+  task.pixels_per_tangent = static_cast<float>(std::fabs(view.screen_y.y));
+  return out;
+}
+
+// Fragments that are not seen through have zeros.
+void TileShading::PutSeenThrough(bool is_seen_through, bool disperses, SeenThroughFragments& out) const {
+  const auto put = [&](const std::vector<float>& from, std::vector<float>& to) {
+    for (std::size_t i = 0; i < selected_.size(); ++i) to[selected_[i]] = is_seen_through ? from[i] : 0.0f;
+  };
+  for (int c = 0; c < 3; ++c) {
+    const int channel = disperses ? c : 0;
+    put(seen_through_.tint[c], out.tint[c]);
+    put(seen_through_.shift_x[channel], out.shift_x[c]);
+    put(seen_through_.shift_y[channel], out.shift_y[c]);
+  }
+  put(seen_through_.blur, out.blur);
 }
 
 // Sets up the attributes of each triangle of the batch once. Padding uses the setup of the last fragment.

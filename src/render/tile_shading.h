@@ -7,6 +7,7 @@
 #include "light/lighting.h"
 #include "render/tile_records.h"
 #include "render/tiled_view.h"
+#include "shade/shade_task.h"
 
 namespace facet {
 
@@ -43,6 +44,8 @@ class TileShading {
   void SetUpBatch(const Batch& batch, const FragmentList& list, std::size_t padded);
   void PlaceFragments(const TileBuffers& tile, const FragmentList& list, std::size_t padded);
   void SelectAll(std::size_t count);
+  SeenThroughOutputs PrepareSeenThrough(std::size_t padded, ShadeTask& task);
+  void PutSeenThrough(bool is_seen_through, bool disperses, SeenThroughFragments& out) const;
 
   // Consecutive fragments of a list that have the same material: [begin, end).
   struct MaterialRun {
@@ -63,6 +66,7 @@ class TileShading {
   std::vector<float> setups_;
   std::vector<std::int32_t> setup_of_;  // by fragment of the batch, like all below
   std::vector<float> x_, y_, red_, green_, blue_, alpha_;
+  SeenThroughFragments seen_through_;
 };
 
 }  // namespace facet

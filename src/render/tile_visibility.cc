@@ -60,15 +60,16 @@ void TileVisibility::DrawMasked(std::span<const TileRun> runs) {
 }
 
 // Works in batches, so that fragments, of which there may be any number, are charged before memory runs out.
-void TileVisibility::CollectBlended(FragmentList& out) {
+void TileVisibility::CollectBlended(bool seen_through, FragmentList& out) {
+  const std::size_t bytes = kFragmentBytes + (seen_through ? kSeenThroughBytes : 0);
   constexpr std::size_t kBatch = 256;  // triangles
   const TileTriangles all = records_.Append(view_.geometry.lists.blended[list_]);
   for (std::size_t first = 0; first < all.count; first += kBatch) {
-    Charge(out.Size(), kFragmentBytes, charged_fragments_);
+    Charge(out.Size(), bytes, charged_fragments_);
     RasterCollect({all.records + first, all.ids + first, std::min(kBatch, all.count - first)}, tile_, out,
                   CollectDepth::NearerOrEqual);
   }
-  Charge(out.Size(), kFragmentBytes, charged_fragments_);
+  Charge(out.Size(), bytes, charged_fragments_);
 }
 
 }  // namespace facet

@@ -29,7 +29,8 @@ class TileVisibility {
   void Draw();
 
   // Lists the fragments of blended triangles that are not behind the drawn ones.
-  void CollectBlended(FragmentList& out);
+  // `seen_through`: they are shaded with SeenThroughFragments.
+  void CollectBlended(bool seen_through, FragmentList& out);
   bool HasBlended() const { return !view_.geometry.lists.blended[list_].empty(); }
 
   const TileBuffers& Buffers() const { return tile_; }
@@ -43,6 +44,8 @@ class TileVisibility {
   // own 7 bytes, the arrays of its shading, and its index in the order of layers; vectors have half of that in reserve.
   void Charge(std::size_t count, std::size_t bytes_each, std::size_t& charged);
   static constexpr std::size_t kRecordBytes = 40 + AttributeLayout::kMostStride * sizeof(float), kFragmentBytes = 120;
+  // Of a frame with transmission, in addition: its arrays, and those of its batch.
+  static constexpr std::size_t kSeenThroughBytes = 3 * SeenThroughFragments::kArrays * sizeof(float);
 
   const TiledView& view_;
   TileShading& shading_;

@@ -303,6 +303,11 @@ void SetUpTriangleAttributesKernel(const AttributeSetupTask& task) {
     for (std::size_t k = 0; k < n; ++k) {
       CopyAttributes(material, geometry, vertices[ahead_index(i + k)], setups + k * stride);
     }
+    if (material.Has(kVolume)) {
+      for (std::size_t k = 0; k < n; ++k) {
+        setups[k * stride + stride - 1] = task.records[i + k]->back_facing ? 0.0f : group.drawable->metres_per_unit;
+      }
+    }
     for (std::size_t k = i; k < i + n; ++k) ask_for_vertices(k + kAhead), ask_for_indices(k + 2 * kAhead);
     i += n;
   }

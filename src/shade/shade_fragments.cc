@@ -28,6 +28,14 @@ namespace HWY_NAMESPACE {
 FACET_SHADING_MODELS(FACET_MODEL_KERNEL)
 #undef FACET_MODEL_KERNEL
 
+#define FACET_MODEL_KERNEL(Name)                                \
+  void SeenThrough##Name##Kernel(const ShadeTask& task) {       \
+    Surface<Float> surfaces[2];                                 \
+    ShadePackets(task, ModelSeenThrough<Name>{task}, surfaces); \
+  }
+FACET_MODELS_SEEN_THROUGH(FACET_MODEL_KERNEL)
+#undef FACET_MODEL_KERNEL
+
 void AlphaKernel(const ShadeTask& task) {
   const MaterialView<Float> material(*task.material);
   for (std::size_t i = 0; i < task.count; i += LaneCount()) {
@@ -74,6 +82,21 @@ void BackgroundKernel(const BackgroundTask& task) {
   }
 }
 
+void EnvironmentAtKernel(const EnvironmentTask& task) {
+  const LightingView<Float> lighting(*task.lighting);
+  for (std::size_t i = 0; i < task.count; i += LaneCount()) {
+    const Float x = LoadFloat(task.x + i), y = LoadFloat(task.y + i), roughness = LoadFloat(task.roughness + i);
+    const auto component = [&](int c) HWY_ATTR {
+      return Float(task.column[c]) * x + Float(task.row[c]) * y + Float(task.whole[c]);
+    };
+    const Vec3<Float> direction{component(0), component(1), component(2)};
+    const Mask smooth = roughness <= Float(0.0f);
+    Vec3<Float> seen = All(smooth) ? lighting.Background(direction) : lighting.Prefiltered(direction, roughness);
+    if (Any(smooth) && !All(smooth)) seen = Select<Float>(smooth, lighting.Background(direction), seen);
+    Store(seen.x, task.red + i), Store(seen.y, task.green + i), Store(seen.z, task.blue + i);
+  }
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace facet
 HWY_AFTER_NAMESPACE();
@@ -86,10 +109,25 @@ namespace facet {
   FACET_EXPORT(Layered##Name##Kernel);
 FACET_SHADING_MODELS(FACET_MODEL_EXPORT)
 #undef FACET_MODEL_EXPORT
+#define FACET_MODEL_EXPORT(Name) FACET_EXPORT(SeenThrough##Name##Kernel);
+FACET_MODELS_SEEN_THROUGH(FACET_MODEL_EXPORT)
+#undef FACET_MODEL_EXPORT
 FACET_EXPORT(AlphaKernel);
+FACET_EXPORT(EnvironmentAtKernel);
 FACET_EXPORT(BackgroundKernel);
 
+void ShadeSeenThrough(const ShadeTask& task) {
+  switch (task.material->model) {
+#define FACET_MODEL_CASE(Name) \
+  case ShadingModel::Name: return FACET_DISPATCH(SeenThrough##Name##Kernel)(task);
+    FACET_MODELS_SEEN_THROUGH(FACET_MODEL_CASE)
+#undef FACET_MODEL_CASE
+    case ShadingModel::Unlit: break;  // never seen through
+  }
+}
+
 void ShadeFragments(const ShadeTask& task) {
+  if (task.seen_through != nullptr) return ShadeSeenThrough(task);
   const bool layered = task.material->Has(kLayerFeatures);
   switch (task.material->model) {
 #define FACET_MODEL_CASE(Name) \
@@ -100,6 +138,7 @@ void ShadeFragments(const ShadeTask& task) {
   }
 }
 void ShadeAlpha(const ShadeTask& task) { FACET_DISPATCH(AlphaKernel)(task); }
+void LookUpEnvironment(const EnvironmentTask& task) { FACET_DISPATCH(EnvironmentAtKernel)(task); }
 void ShadeBackground(const BackgroundTask& task) { FACET_DISPATCH(BackgroundKernel)(task); }
 
 }  // namespace facet

@@ -23,4 +23,20 @@ struct BackgroundTask {
 };
 void ShadeBackground(const BackgroundTask& task);
 
+// Looks up the environment, as a background, in the directions from the eye through points of the image. The direction
+// through (x, y), in pixels, is column * x + row * y + whole (world axes, of any length). Arrays are readable and
+// writable up to a multiple of 16.
+struct EnvironmentTask {
+  float column[3] = {}, row[3] = {}, whole[3] = {};
+  const float* x = nullptr;
+  const float* y = nullptr;
+  const float* roughness = nullptr;  // perceptual, of the blur; 0: none
+  std::size_t count = 0;
+  const LightingData* lighting = nullptr;
+  float* red = nullptr;
+  float* green = nullptr;
+  float* blue = nullptr;
+};
+void LookUpEnvironment(const EnvironmentTask& task);
+
 }  // namespace facet

@@ -7,6 +7,7 @@
 #include "material/models/all-inl.h"
 #include "shade/interpolate-inl.h"
 #include "shade/material_view-inl.h"
+#include "shade/shade_packets-inl.h"
 #include "shade/shade_task.h"
 
 // Compiled for the baseline instruction set, like the functions that it calls: on Arm their target attributes must
@@ -19,14 +20,30 @@ namespace lanes = HWY_NAMESPACE;
 
 bool IsFiniteFloat(double x) { return std::fabs(x) <= double{std::numeric_limits<float>::max()}; }
 
+lanes::Shaded<double> ShadeSeenThrough(const ShadeTask& task, const lanes::Surface<double>& surface,
+                                       const lanes::MaterialView<double>& material,
+                                       const lanes::LightingView<double>& lighting, std::size_t i) {
+  const auto shade = [&]<class Model>(Model) {
+    const lanes::ShadedThrough<double> shaded = lanes::ModelSeenThrough<Model>{task}(surface, material, lighting, i);
+    lanes::StoreSeenThrough(task, surface, i, shaded);
+    return shaded.own;
+  };
+  return material.Model() == ShadingModel::SpecularGlossiness ? shade(lanes::SpecularGlossiness())
+                                                              : shade(lanes::MetallicRoughness());
+}
+
 class DoubleShader final : public FragmentShader {
  public:
+  bool Transmits() const override { return true; }
+
   void Shade(const ShadeTask& task) const override {
     const lanes::MaterialView<double> material(*task.material);
     const lanes::LightingView<double> lighting(*task.lighting);
     for (std::size_t i = 0; i < task.count; ++i) {
-      const lanes::Shaded<double> shaded =
-          lanes::ModelOfMaterial()(lanes::InterpolateSurface<double>(task, i), material, lighting);
+      const lanes::Surface<double> surface = lanes::InterpolateSurface<double>(task, i);
+      const lanes::Shaded<double> shaded = task.seen_through != nullptr
+                                               ? ShadeSeenThrough(task, surface, material, lighting, i)
+                                               : lanes::ModelOfMaterial()(surface, material, lighting);
       const lanes::Vec3<double> c = shaded.color;
       const bool finite = IsFiniteFloat(c.x) && IsFiniteFloat(c.y) && IsFiniteFloat(c.z) && IsFiniteFloat(shaded.alpha);
       task.red[i] = finite ? static_cast<float>(c.x) : 0.0f;

@@ -8,12 +8,89 @@
 #endif
 
 #include "light/lighting-inl.h"
+#include "material/models/seen_through-inl.h"
 #include "shade/interpolate-inl.h"
 #include "shade/material_view-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace facet {
 namespace HWY_NAMESPACE {
+
+// What a functor returns, as colour and alpha.
+template <class T>
+HWY_INLINE const Shaded<T>& OwnOf(const Shaded<T>& shaded) {
+  return shaded;
+}
+template <class T>
+HWY_INLINE const Shaded<T>& OwnOf(const ShadedThrough<T>& shaded) {
+  return shaded.own;
+}
+
+// The other results of fragments i and after. Those that are not finite let nothing pass.
+template <class T>
+HWY_INLINE void StoreSeenThrough(const ShadeTask&, const Surface<T>&, std::size_t, const Shaded<T>&) {}
+template <class T>
+HWY_INLINE void StoreSeenThrough(const ShadeTask& task, const Surface<T>& surface, std::size_t i,
+                                 const ShadedThrough<T>& shaded) {
+  const SeenThroughOutputs& out = *task.seen_through;
+  const T zero(0.0f), one(1.0f);
+  const auto put = [i](T value, float* to) HWY_ATTR {
+    if constexpr (std::is_same_v<T, double>) {
+      to[i] = static_cast<float>(value);
+    } else {
+      Store(value, to + i);
+    }
+  };
+  const auto row = [&](int k, const Vec3<T>& v) HWY_ATTR {
+    const float* m = task.screen_from_eye[k];
+    return T(m[0]) * v.x + T(m[1]) * v.y + T(m[2]) * v.z;
+  };
+  const T tint[3] = {shaded.tint.x, shaded.tint.y, shaded.tint.z};
+  for (int c = 0; c < 3; ++c) put(Select(IsFinite(tint[c]), Clamp(tint[c], zero, one), zero), out.tint[c]);
+  put(shaded.spread * T(task.pixels_per_tangent), out.blur);
+  const T distance = task.orthographic ? one : Max(row(2, surface.position), T(1e-30f));
+  const T x = row(0, surface.position) / distance, y = row(1, surface.position) / distance;
+  const int channels = task.material->Has(kDispersion) ? 3 : 1;
+  for (int c = 0; c < channels; ++c) {
+    // The exit point's pixel minus the fragment's: ((x d + dx) / (d + dd)) - x. Exits do not come near the eye.
+    const Vec3<T>& path = shaded.path[c];
+    const T nearer = task.orthographic ? zero : row(2, path);
+    const T exit = Max(distance + nearer, distance * T(1e-3f));
+    const auto bounded = [&](T shift) HWY_ATTR {
+      constexpr float kMost = 0x1p20f;  // pixels
+      return Select(IsFinite(shift), Clamp(shift, T(-kMost), T(kMost)), zero);
+    };
+    put(bounded((row(0, path) - x * nearer) / exit), out.shift_x[c]);
+    put(bounded((row(1, path) - y * nearer) / exit), out.shift_y[c]);
+  }
+}
+
+// Metres per unit of the mesh (AttributeLayout::MetresPerUnit()) at fragments i and after.
+template <class T>
+HWY_INLINE T MetresPerUnit(const ShadeTask& task, std::size_t i) {
+  const int uv_slots = task.material->uv_slots;
+  if (!task.material->Has(kVolume)) return T(0.0f);
+  const IntOf<T> setup = LoadIntOf<T>(task.setup + i) * IntOf<T>(AttributeLayout::Stride(uv_slots));
+  return Fetch<T>(task.setups + AttributeLayout::MetresPerUnit(uv_slots), setup);
+}
+
+// Shades by a model that returns ShadedThrough. Surfaces cover what their alpha mode says.
+template <class Model>
+struct ModelSeenThrough {
+  const ShadeTask& task;
+
+  template <class T, class Material, class Lighting>
+  HWY_INLINE ShadedThrough<T> operator()(const Surface<T>& surface, const Material& material, const Lighting& lighting,
+                                         std::size_t i) const {
+    ShadedThrough<T> shaded = Model::Through(surface, MetresPerUnit<T>(task, i), material, lighting);
+    T& alpha = shaded.own.alpha;
+    if (task.material->alpha_mode == AlphaMode::Opaque) alpha = T(1.0f);
+    if (task.material->alpha_mode == AlphaMode::Mask) {
+      alpha = Select(alpha >= T(task.material->factors.alpha_cutoff), T(1.0f), T(0.0f));
+    }
+    return shaded;
+  }
+};
 
 // Shades all fragments of a task. The texels of the next packet are prefetched before the current one is shaded, which
 // hides the latency of memory. Lanes beyond the end of the batch shade the caller's padding; their results are unused.
@@ -33,7 +110,16 @@ HWY_INLINE void ShadePackets(const ShadeTask& task, const Shader& shader, Surfac
   for (std::size_t i = 0; i < task.count; i += lanes, buffer = 1 - buffer) {
     if (i + lanes < task.count) prepare(i + lanes, 1 - buffer);
     const MaterialView<Float> material(*task.material, &readers[buffer]);
-    const Shaded<Float> shaded = shader(surfaces[buffer], material, lighting);
+    const auto result = [&]() HWY_ATTR {
+      if constexpr (std::is_invocable_v<Shader, Surface<Float>&, const MaterialView<Float>&, const LightingView<Float>&,
+                                        std::size_t>) {
+        return shader(surfaces[buffer], material, lighting, i);
+      } else {
+        return shader(surfaces[buffer], material, lighting);
+      }
+    }();
+    StoreSeenThrough(task, surfaces[buffer], i, result);
+    const Shaded<Float>& shaded = OwnOf(result);
     const Vec3<Float> c = shaded.color;
     const Mask finite = IsFinite(c.x) & IsFinite(c.y) & IsFinite(c.z) & IsFinite(shaded.alpha);
     const Float zero(0.0f);

@@ -8,7 +8,7 @@
 #endif
 
 #include "facet/shader/surface-inl.h"
-#include "material/closure-inl.h"
+#include "material/models/seen_through-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace facet {
@@ -26,6 +26,13 @@ struct MetallicRoughness {
   static HWY_INLINE Shaded<T> With(const Surface<T>& surface, const Material& material, const Lighting& lighting) {
     const MaterialInputs<T> inputs = material.template Inputs<kPossible>(surface);
     return {ShadeClosure<T, kPossible>(inputs, surface.view, surface.position, lighting), inputs.alpha_coverage};
+  }
+
+  // For materials with transmission.
+  template <class T, class Material, class Lighting>
+  static HWY_INLINE ShadedThrough<T> Through(const Surface<T>& surface, T metres_per_unit, const Material& material,
+                                             const Lighting& lighting) {
+    return ShadeThrough(material.template Inputs<kAllLobes>(surface), surface, metres_per_unit, lighting);
   }
 };
 

@@ -1,0 +1,102 @@
+// Light that passes straight through a surface (KHR_materials_transmission) and through the medium behind it
+// (KHR_materials_volume, KHR_materials_dispersion). What is seen through the surface is multiplied by `color`; where it
+// is seen, and how far it is blurred, follows from Path() and Spread().
+//
+// A thin wall (thickness 0) does not refract. A volume is a flat slab of the given thickness: the view is refracted
+// once, by Snell's law at the shading normal, and leaves it after that distance, which the absorption of the medium
+// (Beer and Lambert) counts, too.
+//
+// A rough surface scatters what it transmits as it would reflect it, mirrored to its other side, with a Fresnel term of
+// 1 and with multiple scattering, so that the lobe's integral is 1. Its width is that of the reflection times
+// clamp(2 ior - 2, 0, 1), as in the renderers of the extension's authors: a surface between equal media does not
+// scatter, and glass of 1.5 scatters as wide as it reflects.
+
+#if defined(FACET_MATERIAL_LOBES_TRANSMISSION_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef FACET_MATERIAL_LOBES_TRANSMISSION_INL_H_
+#undef FACET_MATERIAL_LOBES_TRANSMISSION_INL_H_
+#else
+#define FACET_MATERIAL_LOBES_TRANSMISSION_INL_H_
+#endif
+
+#include "facet/shader/elementary-inl.h"
+#include "material/lobes/diffuse-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace facet {
+namespace HWY_NAMESPACE {
+
+template <class T>
+struct TransmissionInputs {
+  T factor{};          // [0, 1]
+  Vec3<T> ior;         // for red, green and blue; 1 or more
+  T thickness{};       // of the volume; 0: a thin wall. Metres, once it is multiplied by Surface::metres_per_unit
+  Vec3<T> absorption;  // per metre; read if the material has a volume
+};
+
+template <class T>
+struct TransmissionLobe {
+  Vec3<T> color;               // of the light that passes: without what the interface and layers above it reflect
+  Microfacets<T> microfacets;  // of the mirrored reflection
+  T unclamped_alpha{};         // GGX's width of the same: 0 for a smooth surface
+
+  HWY_INLINE TransmissionLobe() {}  // for a lobe that a material does not have
+
+  // `base`: clamped to 1. `roughness`: of the specular lobe.
+  HWY_INLINE TransmissionLobe(const TransmissionInputs<T>& in, bool has_volume, const Vec3<T>& base, T metallic,
+                              T roughness) {
+    const T zero(0.0f), one(1.0f);
+    color = base * (Clamp(in.factor, zero, one) * (one - metallic));
+    if (has_volume) color = color * Passing(in.absorption, in.thickness);
+    const T bounded = Clamp(roughness, zero, one);
+    unclamped_alpha = AlphaFromPerceptualRoughness(bounded) * Clamp(T(2.0f) * in.ior.y - T(2.0f), zero, one);
+    microfacets = Microfacets<T>(Sqrt(unclamped_alpha));
+  }
+
+  // The share of light that a path through the medium leaves.
+  static HWY_INLINE Vec3<T> Passing(const Vec3<T>& absorption, T path) {
+    const auto of = [&](T a) HWY_ATTR { return Exp(Max(-(a * path), T(-100.0f))); };
+    return {of(absorption.x), of(absorption.y), of(absorption.z)};
+  }
+
+  // The BTDF times the cosine, for light from behind, before `color`. `back`: the normal mirrored, so that light from
+  // behind is on its side.
+  template <class Lighting>
+  HWY_INLINE T Direct(const SurfaceView<T>& at, const Vec3<T>& light, const Lighting& lighting) const {
+    const T behind = -Dot(at.normal, light);
+    const Vec3<T> mirrored = light + at.normal * (T(2.0f) * behind);
+    const Incidence<T> from = IncidenceFrom(at, mirrored);
+    const T roughness = microfacets.perceptual_roughness;
+    const SpecularAlbedo<T> average = lighting.DfgAverage(roughness);
+    const T multiple = LostEnergy(lighting.Dfg(at.n_dot_v, roughness)) *
+                       LostEnergy(lighting.Dfg(from.n_dot_l, roughness)) * T(kInversePi) /
+                       Max(LostEnergy(average), T(1e-6f));
+    return Select(behind > T(0.0f), (microfacets.Single(at, from) + multiple) * from.n_dot_l, T(0.0f));
+  }
+
+  // The standard deviation of the tangent of the angle by which the lobe spreads light. GGX has none, because of its
+  // tails, so it is that of the Gauss lobe with the same median: half of the facets are tilted by less than
+  // atan(alpha), and deviate light by twice that. Where they are very rough, half of the light deviates by less than 45
+  // degrees.
+  //
+  // That is the mirrored reflection of a thin wall. The facets of a volume refract: they deviate light by ior - 1 times
+  // their tilt instead of twice.
+  HWY_INLINE T Spread(bool has_volume, T ior) const {
+    const T mirrored = unclamped_alpha * T(1.7f) / (T(1.0f) + unclamped_alpha);
+    return has_volume ? mirrored * Min(T(0.25f) * Max(T(2.0f) * ior - T(2.0f), T(1.0f)), T(1.0f)) : mirrored;
+  }
+};
+
+// The vector from where the view enters a medium to where it leaves it. `ior`: 1 or more.
+template <class T>
+HWY_INLINE Vec3<T> RefractedPath(const SurfaceView<T>& at, T ior, T thickness) {
+  const T eta = T(1.0f) / Max(ior, T(1.0f));
+  const T cosine = Sqrt(Max(T(1.0f) - eta * eta * (T(1.0f) - at.n_dot_v * at.n_dot_v), T(0.0f)));
+  const Vec3<T> inward = at.normal * (eta * at.n_dot_v - cosine) - at.view * eta;
+  return NormalizeOr(inward, -at.view) * thickness;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace facet
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,320 @@
+// Surfaces that are seen through: transmission, volume and dispersion.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/gtc/quaternion.hpp>
+
+#include "render/hand_built.h"
+
+namespace facet {
+namespace {
+
+constexpr int kSize = 64;
+
+Material Glass(const glm::vec3& color, float roughness = 0.0f) {
+  Material m;
+  m.base_color_factor = glm::vec4(color, 1.0f);
+  m.metallic_factor = 0.0f;
+  m.roughness_factor = roughness;
+  m.transmission_factor = 1.0f;
+  return m;
+}
+
+Material Slab(float thickness, float ior, float roughness = 0.0f) {
+  Material m = Glass(glm::vec3(1.0f), roughness);
+  m.thickness_factor = thickness;
+  m.ior = ior;
+  return m;
+}
+
+Transform At(const glm::dvec3& position, const glm::dquat& rotation = glm::dquat(1, 0, 0, 0),
+             const glm::dvec3& scale = glm::dvec3(1.0)) {
+  Transform t;
+  t.translation = position;
+  t.rotation = rotation;
+  t.scale = scale;
+  return t;
+}
+
+// Triangles of several colours, none of whose edges follow pixels.
+void AddPattern(Scene& scene, float z) {
+  for (int i = 0; i < 7; ++i) {
+    const float a = 0.4f + float(i) * 0.83f;
+    Primitive p;
+    p.positions = {{std::cos(a), std::sin(a), z + 0.01f * float(i)},
+                   {std::cos(a + 2.1f), std::sin(a + 2.1f), z + 0.01f * float(i)},
+                   {0.6f * std::cos(a + 3.9f), 0.6f * std::sin(a + 3.9f), z + 0.01f * float(i)}};
+    const int material = AddMaterial(scene, Unlit({0.1f + 0.1f * float(i), 0.9f - 0.1f * float(i), 0.5f, 1.0f}));
+    Add(scene, std::move(p), material);
+  }
+}
+
+// A wall behind everything, of one colour.
+void AddWall(Scene& scene, float z, const glm::vec3& color) {
+  Add(scene, Rectangle(-30, -30, 30, 30, z), AddMaterial(scene, Unlit(glm::vec4(color, 1.0f))));
+}
+
+void AddPane(Scene& scene, float z, const Material& material, float half = 2.0f) {
+  Add(scene, Rectangle(-half, -half, half, half, z), AddMaterial(scene, material));
+}
+
+RenderSettings FlatView(int samples = 4) { return Settings(kSize, kSize, samples, Orthographic(1.0)); }
+
+const glm::vec4& PixelAt(const Film& film, int x, int y) {
+  return film.pixels[std::size_t(y) * std::size_t(film.width) + std::size_t(x)];
+}
+
+void ExpectNear(const glm::vec4& got, const glm::vec4& want, float tolerance) {
+  for (int c = 0; c < 4; ++c) EXPECT_NEAR(got[c], want[c], tolerance) << "component " << c;
+}
+
+// What a smooth clear pane lets pass, straight ahead: 1 - 0.04.
+constexpr float kClear = 0.96f;
+
+TEST(Transmission, AThinPaneShowsWhatIsBehindTimesItsTint) {
+  for (const int samples : {1, 2, 4, 8}) {
+    Scene scene;
+    AddWall(scene, -3, {0.2f, 0.3f, 0.4f});
+    AddPattern(scene, -1);
+    const Film bare = Render(scene, FlatView(samples));
+    AddPane(scene, 0, Glass({0.5f, 0.75f, 1.0f}));
+    const Film seen = Render(scene, FlatView(samples));
+    for (std::size_t i = 0; i < bare.pixels.size(); ++i) {
+      const glm::vec4 want = bare.pixels[i] * glm::vec4(0.5f * kClear, 0.75f * kClear, kClear, 1.0f);
+      for (int c = 0; c < 4; ++c) ASSERT_NEAR(seen.pixels[i][c], want[c], 2e-3f) << i;
+      // The pane is the same everywhere, also where several surfaces share a pixel.
+      const float tint = seen.pixels[0].x / bare.pixels[0].x;
+      ASSERT_NEAR(seen.pixels[i].x, bare.pixels[i].x * tint, 1e-6f) << i;
+    }
+  }
+}
+
+TEST(Transmission, PanesMultiplyInEitherOrderOfSubmission) {
+  const Material red = Glass({1.0f, 0.5f, 0.25f}), blue = Glass({0.3f, 0.6f, 0.9f});
+  Film films[2];
+  for (const bool swapped : {false, true}) {
+    Scene scene;
+    AddWall(scene, -3, {0.8f, 0.6f, 0.5f});
+    if (!swapped) AddPane(scene, 0, red);
+    AddPane(scene, 1, blue);
+    if (swapped) AddPane(scene, 0, red);
+    films[swapped] = Render(scene, FlatView());
+  }
+  EXPECT_TRUE(SameBytes(films[0], films[1]));
+  const float both = kClear * kClear;
+  ExpectNear(PixelAt(films[0], 20, 30), {0.8f * 0.3f * both, 0.6f * 0.3f * both, 0.5f * 0.225f * both, 1.0f}, 2e-3f);
+}
+
+TEST(Transmission, BlendedSurfacesBetweenPanesAreInTheirPlace) {
+  Scene scene;
+  AddWall(scene, -3, {0.8f, 0.6f, 0.5f});
+  AddPane(scene, 2, Glass({1.0f, 0.5f, 0.5f}));
+  AddPane(scene, 0, Glass({0.5f, 1.0f, 0.5f}));
+  AddPane(scene, 1, Unlit({0.2f, 0.4f, 0.6f, 0.25f}, AlphaMode::Blend));
+  const Film film = Render(scene, FlatView());
+  const glm::vec3 front = glm::vec3(1.0f, 0.5f, 0.5f) * kClear, rear = glm::vec3(0.5f, 1.0f, 0.5f) * kClear;
+  const glm::vec3 want = front * (glm::vec3(0.2f, 0.4f, 0.6f) * 0.25f + 0.75f * rear * glm::vec3(0.8f, 0.6f, 0.5f));
+  ExpectNear(PixelAt(film, 20, 30), glm::vec4(want, 1.0f), 2e-3f);
+}
+
+TEST(Transmission, AlphaIsCoverageOnTop) {
+  for (const AlphaMode mode : {AlphaMode::Opaque, AlphaMode::Mask, AlphaMode::Blend}) {
+    Scene scene;
+    AddWall(scene, -3, {0.8f, 0.6f, 0.5f});
+    Material m = Glass({0.5f, 0.5f, 0.5f});
+    m.base_color_factor.a = 0.25f;
+    m.alpha_mode = mode;
+    AddPane(scene, 0, m);
+    const float covers = mode == AlphaMode::Opaque ? 1.0f : mode == AlphaMode::Mask ? 0.0f : 0.25f;
+    const float passes = covers * 0.5f * kClear + (1.0f - covers);
+    ExpectNear(PixelAt(Render(scene, FlatView()), 9, 9), {0.8f * passes, 0.6f * passes, 0.5f * passes, 1.0f}, 2e-3f);
+  }
+}
+
+TEST(Transmission, LeavesATransparentBackgroundTransparent) {
+  Scene scene;
+  AddPane(scene, 0, Glass({0.2f, 0.4f, 0.9f}));
+  AddPane(scene, 1, Slab(0.2f, 1.5f, 0.5f));
+  const Film film = Render(scene, FlatView());
+  ExpectNear(PixelAt(film, 20, 20), {0, 0, 0, 1.0f - 0.5f * kClear * kClear}, 3e-3f);
+}
+
+TEST(Transmission, WhiteGlassInAnEvenLightCannotBeSeen) {
+  for (const Material& glass :
+       {Glass(glm::vec3(1.0f)), Glass(glm::vec3(1.0f), 0.6f), Slab(0.5f, 1.5f), Slab(0.5f, 2.0f, 0.4f), [] {
+          Material m = Slab(0.5f, 1.7f, 0.1f);
+          m.dispersion = 5.0f;
+          return m;
+        }()}) {
+    Scene scene;
+    Add(scene, Sphere(0.8f, 24, 48), AddMaterial(scene, glass));
+    RenderSettings settings = Settings(kSize, kSize, 4, Perspective(0.3, {0, 0, 6}));
+    settings.environment = ConstantEnvironment(2.0f);
+    settings.background = Background::Environment;
+    const Film film = Render(scene, settings);
+    for (const glm::vec4& p : film.pixels) {
+      for (int c = 0; c < 3; ++c) ASSERT_NEAR(p[c], 2.0f, 0.01f);
+      ASSERT_NEAR(p.a, 1.0f, 1e-6f);
+    }
+  }
+}
+
+// The sum over a row of a picture whose left part is dark and whose right part is bright is, up to a factor, where the
+// edge between them is.
+TEST(Transmission, ASlabShiftsWhatIsBehindBySnellsLaw) {
+  for (const double angle : {0.0, 0.3, 0.9}) {
+    for (const float ior : {1.0f, 1.5f, 2.4f}) {
+      Scene scene;
+      AddWall(scene, -9, {0.0f, 0.0f, 0.0f});
+      Add(scene, Rectangle(0.013f, -30, 30, 30, -8), AddMaterial(scene, Unlit(glm::vec4(1.0f))));
+      const float scale = 0.5f, thickness = 0.6f;
+      const auto turn = glm::dquat(std::cos(angle / 2), 0, std::sin(angle / 2), 0);
+      Add(scene, Rectangle(-9, -9, 9, 9), AddMaterial(scene, Slab(thickness, ior)),
+          At({0, 0, 0}, turn, glm::dvec3(double(scale))));
+      const Film film = Render(scene, FlatView());
+      double sum = 0.0;
+      for (int x = 0; x < kSize; ++x) sum += double(PixelAt(film, x, 17).x / PixelAt(film, kSize - 1, 17).x);
+      // The normal leans to +x, so the view is refracted to -x, and sees what is there further to the right.
+      const double inside = std::asin(std::sin(angle) / double(ior));
+      const double shift = -double(thickness * scale) * std::sin(angle - inside);
+      const double edge = (1.0 + 0.013 - shift) * kSize / 2;
+      EXPECT_NEAR(kSize - sum, edge, 0.02) << angle << " " << ior;
+    }
+  }
+}
+
+TEST(Transmission, NothingInFrontIsSeenThrough) {
+  for (const float roughness : {0.0f, 0.2f, 0.7f}) {
+    for (const float thickness : {0.0f, 0.5f, 3.0f}) {
+      const auto add_front = [](Scene& scene) {
+        Add(scene, Rectangle(-0.1f, -2, 0.15f, 2, 1.5f), AddMaterial(scene, Unlit({1, 0, 0, 1})));
+        Add(scene, Rectangle(0.4f, -0.3f, 0.6f, 0.3f, 1.2f), AddMaterial(scene, Unlit({1, 0, 0, 1})));
+      };
+      Scene front, scene;
+      add_front(front), add_front(scene);
+      AddWall(scene, -3, {0, 1, 0});
+      Material slab = Slab(thickness, 1.5f, roughness);
+      slab.dispersion = 2.0f;
+      Add(scene, Sphere(0.9f, 40, 80), AddMaterial(scene, slab));
+      const RenderSettings settings = Settings(kSize, kSize, 4, Perspective(0.5, {0, 0, 5}));
+      const Film covered = Render(front, settings), film = Render(scene, settings);
+      for (std::size_t i = 0; i < film.pixels.size(); ++i) {
+        if (covered.pixels[i].a > 0.0f) continue;
+        ASSERT_EQ(film.pixels[i].x, 0.0f) << i << " " << roughness << " " << thickness;
+      }
+    }
+  }
+}
+
+TEST(Transmission, BlurGrowsWithTheDistanceBehind) {
+  double before = 0.0;
+  for (const float behind : {-0.001f, -0.3f, -1.0f}) {
+    Scene scene;
+    AddWall(scene, -5, {0, 0, 0});
+    Add(scene, Rectangle(0, -30, 30, 30, behind), AddMaterial(scene, Unlit(glm::vec4(1.0f))));
+    AddPane(scene, 0, Glass(glm::vec3(1.0f), 0.4f));
+    const Film film = Render(scene, Settings(kSize, kSize, 4, Perspective(0.3, {0, 0, 6})));
+    double gradient = 0.0;  // sums squares: less for a softer edge
+    for (int x = 1; x < kSize; ++x) {
+      const double step = double(PixelAt(film, x, 32).x - PixelAt(film, x - 1, 32).x);
+      gradient += step * step;
+    }
+    if (before == 0.0) {
+      EXPECT_GT(gradient, 0.4);  // in contact, it is sharp
+    } else {
+      EXPECT_LT(gradient, 0.7 * before) << behind;
+    }
+    before = gradient;
+  }
+}
+
+// Smooth, rough and dispersing glass, blended surfaces, objects in front and behind.
+Scene Everything() {
+  Scene scene;
+  AddWall(scene, -3, {0.2f, 0.3f, 0.4f});
+  AddPattern(scene, -1);
+  Material disperses = Slab(0.4f, 1.6f);
+  disperses.dispersion = 4.0f;
+  disperses.attenuation_color = {0.9f, 0.5f, 0.4f};
+  disperses.attenuation_distance = 0.7f;
+  Add(scene, Sphere(0.4f, 16, 32), AddMaterial(scene, disperses), At({-0.4f, 0.3f, 0.5f}));
+  Add(scene, Sphere(0.4f, 16, 32), AddMaterial(scene, Slab(0.3f, 1.4f, 0.35f)), At({0.3f, -0.2f, 0.9f}));
+  AddPane(scene, 0.7f, Unlit({0.9f, 0.2f, 0.1f, 0.3f}, AlphaMode::Blend), 0.5f);
+  AddPane(scene, 0.8f, Glass({0.7f, 0.9f, 0.8f}, 0.2f), 0.6f);
+  Add(scene, Rectangle(-0.05f, -0.6f, 0.07f, 0.8f, 1.5f), AddMaterial(scene, Unlit({0.9f, 0.1f, 0.9f, 1.0f})));
+  return scene;
+}
+
+TEST(Transmission, TheImageIsTheSameForTilesThreadsBandsAndInstructionSets) {
+  const Scene scene = Everything();
+  for (const int samples : {1, 4}) {
+    RenderSettings settings = Settings(109, 83, samples, Perspective(0.5, {0.2, 0.1, 4.5}));
+    settings.environment = ConstantEnvironment(0.7f);
+    settings.background = samples == 1 ? Background::Transparent : Background::Environment;
+    const Film want = Render(scene, settings);
+    for (const int tile : {8, 32, 64}) {
+      settings.tile_size = tile;
+      settings.threads = tile == 8 ? 1 : 3;
+      EXPECT_TRUE(SameBytes(Render(scene, settings), want)) << tile;
+      for (const int rows : {1, 40}) {
+        Film whole{settings.width, 0, {}};
+        RenderBands(scene, settings, rows, [&](const Film& band, int) {
+          whole.pixels.insert(whole.pixels.end(), band.pixels.begin(), band.pixels.end());
+          whole.height += band.height;
+        });
+        EXPECT_TRUE(SameBytes(whole, want)) << tile << " " << rows;
+      }
+    }
+    for (const Target target : AvailableTargets()) {
+      const ScopedTarget forced(target);
+      EXPECT_TRUE(SameBytes(Render(scene, settings), want)) << TargetName(target);
+    }
+  }
+}
+
+TEST(Transmission, GlassOutOfSightChangesNoBit) {
+  Scene scene;
+  AddWall(scene, -3, {0.2f, 0.3f, 0.4f});
+  AddPattern(scene, -1);
+  AddPane(scene, 0.2f, Unlit({0.9f, 0.2f, 0.1f, 0.3f}, AlphaMode::Blend), 0.5f);
+  RenderStats bare_stats, stats;
+  const Film bare = Render(scene, FlatView(), &bare_stats);
+  Add(scene, Rectangle(5, 5, 6, 6), AddMaterial(scene, Slab(1.0f, 1.5f)));
+  EXPECT_TRUE(SameBytes(Render(scene, FlatView(), &stats), bare));
+  EXPECT_EQ(stats.fragments_shaded, bare_stats.fragments_shaded);
+}
+
+TEST(Transmission, ExtremesAreFinite) {
+  for (const float thickness : {0.0f, 1e-30f, 1.0f, 1e9f, 3e38f}) {
+    for (const float ior : {0.0f, 1.0f, 1.5f, 1e30f}) {
+      for (const glm::dvec3& scale : {glm::dvec3(1.0), glm::dvec3(0.0, 1.0, 1.0), glm::dvec3(-1.0), glm::dvec3(1e9)}) {
+        for (const float distance : {1e-30f, 1.0f, 3e38f}) {
+          Scene scene;
+          AddWall(scene, -3, {0.2f, 0.3f, 0.4f});
+          Material m = Slab(thickness, ior, 0.3f);
+          m.attenuation_color = {0.0f, 1.0f, 0.5f};
+          m.attenuation_distance = distance;
+          m.dispersion = 20.0f;
+          m.double_sided = true;
+          Add(scene, Rectangle(-1, -1, 1, 1), AddMaterial(scene, m),
+              At({0, 0, 0}, glm::dquat(0.9, 0.3, 0.2, 0.1), scale));
+          for (const bool flat : {false, true}) {
+            const CameraChoice camera =
+                flat ? CameraChoice(Orthographic(1.0)) : CameraChoice(Perspective(0.5, {0, 0, 5}));
+            RenderStats stats;
+            RenderSettings settings = Settings(16, 16, 1, camera);
+            settings.environment = ConstantEnvironment(1.0f);
+            const Film film = Render(scene, settings, &stats);
+            EXPECT_EQ(stats.non_finite_fragments, 0u);
+            for (const glm::vec4& p : film.pixels) {
+              for (int c = 0; c < 4; ++c) ASSERT_TRUE(std::isfinite(p[c]) && p[c] >= 0.0f) << thickness << " " << ior;
+            }
+          }
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace facet
