@@ -25,7 +25,7 @@ int main(int argc, char** argv) {
     for (const Entry& entry :
          {Entry{"material_grid.glb", facet::assets::MaterialGrid}, Entry{"materials.glb", facet::assets::Materials},
           Entry{"showcase.glb", facet::assets::Showcase}, Entry{"room.glb", facet::assets::Room},
-          Entry{"animated.glb", facet::assets::Animated}}) {
+          Entry{"animated.glb", facet::assets::Animated}, Entry{"gallery.glb", facet::assets::Gallery}}) {
       entry.make().Write(folder / entry.name);
     }
     facet::assets::WriteStudio(std::filesystem::path(argv[1]) / "studio.hdr");

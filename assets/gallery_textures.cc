@@ -1,0 +1,37 @@
+#include "gallery_textures.h"
+
+#include <cmath>
+
+#include "facet/shader/elementary_double.h"
+#include "image.h"
+
+namespace facet::assets {
+
+std::vector<std::uint8_t> FlakeNormal() {
+  constexpr int kSize = 128;
+  return PngImage(kSize, [](double u, double v) {
+    const int x = int(u * kSize), y = int(v * kSize);
+    const double turn = 2 * kPi * Hash(x, y, 301), tilt = 0.32 * std::sqrt(Hash(x, y, 302));
+    const Vec3 normal = Normalize({tilt * Cos(turn), tilt * Sin(turn), 1});
+    return Vec3{normal.x * 0.5 + 0.5, normal.y * 0.5 + 0.5, normal.z * 0.5 + 0.5};
+  });
+}
+
+std::vector<std::uint8_t> OrangePeelNormal() {
+  return NormalMap(128, [](double u, double v) { return 0.0016 * PeriodicFractal(u, v, 10, 2, 0.35, 310); });
+}
+
+std::vector<std::uint8_t> SoapThickness() {
+  return PngImage(256, [](double u, double v) {
+    const double stir = 0.10 * PeriodicFractal(u, v, 3, 3, 0.5, 320);
+    const double swirl = PeriodicFractal(u + stir, v + 0.6 * stir, 4, 3, 0.5, 330);
+    const double thickness = Clamp01(0.12 + 0.72 * v + 0.16 * swirl);
+    return Vec3{thickness, thickness, thickness};
+  });
+}
+
+std::vector<std::uint8_t> VelvetNormal() {
+  return NormalMap(128, [](double u, double v) { return 0.006 * PeriodicFractal(u, v, 6, 3, 0.55, 340); });
+}
+
+}  // namespace facet::assets
