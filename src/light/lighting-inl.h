@@ -67,6 +67,20 @@ HWY_INLINE SpecularAlbedo<T> LookupDfgAverage(const DfgTable& table, T perceptua
   return {Mix(p.x, p.z, row.fraction), Mix(p.y, p.w, row.fraction)};
 }
 
+// E of sheen, which may exceed 1.
+template <class T>
+HWY_INLINE T LookupSheen(const SheenTable& table, T n_dot_v, T perceptual_roughness) {
+  const auto position = [](T x, float first, int count) HWY_ATTR {
+    const float last = static_cast<float>(count - 1);
+    return PositionInTable((Sqrt(Sqrt(Max(x, T(0.0f)))) - T(first)) * T(last / (1.0f - first)), last);
+  };
+  const TablePosition<T> column = position(n_dot_v, SheenTable::kFirstColumn, SheenTable::kColumns);
+  const TablePosition<T> row = position(perceptual_roughness, SheenTable::kFirstRow, SheenTable::kRows);
+  const IntOf<T> index = (row.index * IntOf<T>(SheenTable::kColumns) + column.index) * IntOf<T>(2);
+  const Vec4<T> e = FetchVec4<T>(table.albedo, index);  // of this column in both rows, then of the next
+  return Mix(Mix(e.x, e.z, column.fraction), Mix(e.y, e.w, column.fraction), row.fraction);
+}
+
 // Implements the Lighting that material/closure-inl.h expects. Directions are in world axes.
 template <class T>
 class LightingView {
@@ -97,6 +111,10 @@ class LightingView {
   }
   HWY_INLINE SpecularAlbedo<T> DfgAverage(T perceptual_roughness) const {
     return LookupDfgAverage(*data_->dfg, perceptual_roughness);
+  }
+  // Of the sheen lobe with colour 1; may exceed 1. Only where a material has sheen.
+  HWY_INLINE T SheenAlbedo(T n_dot_v, T perceptual_roughness) const {
+    return LookupSheen(*data_->sheen, n_dot_v, perceptual_roughness);
   }
 
  private:

@@ -1,6 +1,7 @@
 // glTF 2.0's material as a closure: the sum of its lobes, evaluated under any lighting. From the top:
 //
 //   clear coat               lobes/clearcoat-inl.h
+//   sheen                    lobes/sheen-inl.h
 //   specular reflection      lobes/specular-inl.h, of microfacets (lobes/microfacets-inl.h, lobes/anisotropy-inl.h)
 //     with a thin film       lobes/iridescence-inl.h
 //   diffuse reflection       lobes/diffuse-inl.h
@@ -29,6 +30,7 @@
 #include "material/lobes/diffuse-inl.h"
 #include "material/lobes/diffuse_transmission-inl.h"
 #include "material/lobes/iridescence-inl.h"
+#include "material/lobes/sheen-inl.h"
 #include "material/lobes/specular-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -52,6 +54,7 @@ struct MaterialInputs {
   // Each of the following is read only if `lobes` has its bit.
   Interface<T> dielectric;  // kSpecular or kIor
   ClearcoatInputs<T> clearcoat;
+  SheenInputs<T> sheen;
   FilmInputs<T> film;
   AnisotropyInputs<T> anisotropy;
   T transmission{};  // [0, 1]
@@ -67,6 +70,7 @@ struct MaterialInputs {
 //   Vec3<T> Prefiltered(Vec3<T> direction, T perceptual_roughness) const;
 //   SpecularAlbedo<T> Dfg(T n_dot_v, T perceptual_roughness) const;
 //   SpecularAlbedo<T> DfgAverage(T perceptual_roughness) const;       // the same, averaged: 2 * integral of mu d mu
+//   T SheenAlbedo(T n_dot_v, T perceptual_roughness) const;           // may exceed 1
 template <class T, MaterialFeatures kPossible = kAllLobes>
 struct Closure {
   SurfaceView<T> at;
@@ -77,6 +81,7 @@ struct Closure {
   DiffuseLobe<T> diffuse;
   DiffuseTransmissionLobe<T> diffuse_transmission;
   ClearcoatLobe<T> clearcoat;
+  SheenLobe<T> sheen;
 
   template <class Lighting>
   HWY_INLINE Closure(const MaterialInputs<T>& in, const Vec3<T>& view, const Lighting& lighting)
@@ -95,6 +100,7 @@ struct Closure {
       diffuse_transmission = DiffuseTransmissionLobe<T>(in.diffuse_transmission, metallic, diffuse);
       if (Has(kTransmission)) diffuse_transmission.color = diffuse_transmission.color * (one - in.transmission);
     }
+    if (Has(kSheen)) sheen = SheenLobe<T>(at, in.sheen, lighting);
     if (Has(kClearcoat)) clearcoat = ClearcoatLobe<T>(in.clearcoat, view, lighting);
   }
 
@@ -140,9 +146,13 @@ HWY_INLINE Vec3<T> EvaluateClosure(const Closure<T, kPossible>& c, Vec3<T> direc
 
   Vec3<T> brdf = c.specular.Direct(single, from.v_dot_h, light_albedo);
   if (c.Has(kDiffuseLobe)) brdf += c.diffuse.Direct(c.specular, light_albedo);
+  if (c.Has(kSheen)) brdf = brdf * c.sheen.EnergyLeft() + c.sheen.Direct(c.at, from);
   Vec3<T> reflected = Select<T>(n_dot_l > T(0.0f), brdf * from.n_dot_l, Vec3<T>{});
   if (c.Has(kDiffuseTransmission)) {
-    reflected += c.diffuse_transmission.Direct(c.diffuse, c.specular, -n_dot_l, c.AlbedoRoughness(direction), lighting);
+    Vec3<T> passed =
+        c.diffuse_transmission.Direct(c.diffuse, c.specular, -n_dot_l, c.AlbedoRoughness(direction), lighting);
+    if (c.Has(kSheen)) passed = passed * c.sheen.EnergyLeft();
+    reflected += passed;
   }
   if (c.Has(kClearcoat)) {
     const T coat = c.clearcoat.Direct(direction, lighting);
@@ -163,6 +173,7 @@ HWY_INLINE Vec3<T> EvaluateEnvironment(const Closure<T, kPossible>& c, const Mat
   if (c.Has(kDiffuseLobe)) sum.of_irradiance_over_pi += c.diffuse.Environment().of_irradiance_over_pi;
   Vec3<T> radiance = sum.radiance + lighting.IrradianceOverPi(c.at.normal) * sum.of_irradiance_over_pi;
   if (c.Has(kDiffuseTransmission)) radiance += c.diffuse_transmission.Environment(c.at, c.diffuse, lighting);
+  if (c.Has(kSheen)) radiance = radiance * c.sheen.EnergyLeft() + c.sheen.Environment(c.at, lighting).radiance;
   if (c.Has(kClearcoat)) {
     radiance =
         radiance * c.clearcoat.EnergyLeft() + c.clearcoat.Environment(in.clearcoat.perceptual_roughness, lighting);

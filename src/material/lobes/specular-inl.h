@@ -51,7 +51,7 @@ struct SpecularLobe {
     f0 = {base.f0.x * dielectric + metal.x * metallic, base.f0.y * dielectric + metal.y * metallic,
           base.f0.z * dielectric + metal.z * metallic};
     f90 = is_white_at_grazing ? T(1.0f) : base.f90 * dielectric + metallic;
-    dielectric_f0 = Max(Max(base.f0.x, base.f0.y), base.f0.z);
+    dielectric_f0 = MaxComponent(base.f0);
     dielectric_f90 = base.f90;
     dielectric_multiple_fresnel = MultipleScatteringFresnel(dielectric_f0, e_avg, base.f90);
     const auto of_mixture = [&](T of_dielectric, T of_metal) HWY_ATTR {
