@@ -13,7 +13,7 @@
 namespace facet::assets {
 namespace {
 
-constexpr int kRows = 16;                        // of directions
+constexpr int kRows = 16;                       // of directions
 constexpr double kHalfAngle = kPi / kRows / 2;  // of a cell of directions
 
 struct Direction {
@@ -56,34 +56,47 @@ class Solid {
       widest = std::max(widest, radius_[i]);
     }
     const double half = (high_ - low_) / 2;
+    samples_per_metre_ = kSamples / (high_ - low_);
     centre_ = place_ + Vec3{0, (low_ + high_) / 2, 0};
     bound_ = std::sqrt(half * half + widest * widest);
   }
 
-  // The share of a cone of directions that is free. The cone's width softens the outline.
-  double Free(Vec3 from, Vec3 towards) const {
+  // Multiplies what is left of the light from each direction by the share of its cone that is free. The cone's width
+  // softens the outline.
+  void Shade(Vec3 from, const std::vector<Direction>& directions, std::vector<double>& left) const {
     const Vec3 to_centre = centre_ - from;
-    const double middle = Dot(to_centre, towards), distance2 = Dot(to_centre, to_centre) - middle * middle;
-    const double reach = bound_ + kHalfAngle * std::max(middle, 0.0);
-    if (distance2 >= reach * reach || middle < -bound_) return 1;
-    const double half = std::sqrt(reach * reach - distance2), begin = std::max(middle - half, 0.004);
-    const double step = (middle + half - begin) / kSteps;
-    double covered = 0;
-    for (int i = 0; i < kSteps; ++i) {
-      const double t = begin + step * (i + 0.5);
-      const Vec3 p = from + towards * t - place_;
-      const int sample = int(std::floor((p.y - low_) / (high_ - low_) * kSamples));
-      if (sample < 0 || sample >= kSamples) continue;
-      const double off_axis = std::sqrt(p.x * p.x + p.z * p.z);
-      covered = std::max(covered, Clamp01(0.5 + (radius_[sample] - off_axis) / (2 * kHalfAngle * t)));
+    const double distance2 = Dot(to_centre, to_centre);
+    for (std::size_t i = 0; i < directions.size(); ++i) {
+      if (left[i] == 0) continue;
+      const Vec3& towards = directions[i].towards;
+      const double middle = to_centre.x * towards.x + to_centre.y * towards.y + to_centre.z * towards.z;
+      const double reach = bound_ + kHalfAngle * std::max(middle, 0.0), off2 = distance2 - middle * middle;
+      if (off2 >= reach * reach || middle < -bound_) continue;
+      const double half = std::sqrt(reach * reach - off2);
+      left[i] *= 1 - opacity_ * Covered(from - place_, towards, std::max(middle - half, 0.004), middle + half);
     }
-    return 1 - opacity_ * covered;
   }
 
  private:
-  static constexpr int kSamples = 48, kSteps = 20;
+  double Covered(Vec3 from, Vec3 towards, double begin, double end) const {
+    const double step = (end - begin) / kSteps;
+    double covered = 0;
+    for (int i = 0; i < kSteps; ++i) {
+      const double t = begin + step * (i + 0.5);
+      const double x = from.x + towards.x * t, y = from.y + towards.y * t, z = from.z + towards.z * t;
+      if (y <= low_ || y >= high_) continue;
+      const double radius = radius_[std::min(int((y - low_) * samples_per_metre_), kSamples - 1)];
+      const double width = kHalfAngle * t, off_axis2 = x * x + z * z;
+      if (off_axis2 >= (radius + width) * (radius + width)) continue;
+      covered = std::max(covered, 0.5 + (radius - std::sqrt(off_axis2)) / (2 * width));
+      if (covered >= 1) return 1;
+    }
+    return covered;
+  }
+
+  static constexpr int kSamples = 48, kSteps = 14;
   Vec3 place_, centre_;
-  double opacity_ = 1, low_ = 0, high_ = 0, bound_ = 0, radius_[kSamples] = {};
+  double opacity_ = 1, low_ = 0, high_ = 0, bound_ = 0, samples_per_metre_ = 0, radius_[kSamples] = {};
 };
 
 }  // namespace
@@ -97,18 +110,17 @@ std::vector<std::uint8_t> BakeOcclusion(int size, const std::function<SurfacePoi
   }
   std::vector<double> left(std::size_t(size) * std::size_t(size));
   ParallelFor(std::size_t(size), 4, [&](std::size_t begin, std::size_t end) {
+    std::vector<double> light(directions.size());
     for (std::size_t y = begin; y < end; ++y) {
       for (int x = 0; x < size; ++x) {
         const SurfacePoint at = surface((x + 0.5) / size, (double(y) + 0.5) / size);
         double all = 0, free = 0;
-        for (const Direction& direction : directions) {
-          const double cosine = Dot(at.normal, direction.towards);
-          if (cosine <= 0) continue;
-          double share = direction.radiance * cosine;
-          all += share;
-          for (const Solid& solid : solids) share *= solid.Free(at.position, direction.towards);
-          free += share;
+        for (std::size_t i = 0; i < directions.size(); ++i) {
+          light[i] = directions[i].radiance * std::max(Dot(at.normal, directions[i].towards), 0.0);
+          all += light[i];
         }
+        for (const Solid& solid : solids) solid.Shade(at.position, directions, light);
+        for (double part : light) free += part;
         left[y * std::size_t(size) + std::size_t(x)] = free / all;
       }
     }

@@ -12,9 +12,9 @@ namespace facet::assets {
 
 // A solid of revolution about a vertical axis, which blocks light.
 struct Blocker {
-  Vec3 place;                  // of its axis at height 0
-  std::vector<Vec2> profile;   // (radius, height), from top to bottom
-  double opacity = 1;          // the share of light that it blocks
+  Vec3 place;                 // of its axis at height 0
+  std::vector<Vec2> profile;  // (radius, height), from top to bottom
+  double opacity = 1;         // the share of light that it blocks
 };
 
 struct SurfacePoint {

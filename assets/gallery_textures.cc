@@ -11,14 +11,14 @@ std::vector<std::uint8_t> FlakeNormal() {
   constexpr int kSize = 128;
   return PngImage(kSize, [](double u, double v) {
     const int x = int(u * kSize), y = int(v * kSize);
-    const double turn = 2 * kPi * Hash(x, y, 301), tilt = 0.32 * std::sqrt(Hash(x, y, 302));
+    const double turn = 2 * kPi * Hash(x, y, 301), tilt = 0.17 * std::sqrt(Hash(x, y, 302));
     const Vec3 normal = Normalize({tilt * Cos(turn), tilt * Sin(turn), 1});
     return Vec3{normal.x * 0.5 + 0.5, normal.y * 0.5 + 0.5, normal.z * 0.5 + 0.5};
   });
 }
 
 std::vector<std::uint8_t> OrangePeelNormal() {
-  return NormalMap(128, [](double u, double v) { return 0.0016 * PeriodicFractal(u, v, 10, 2, 0.35, 310); });
+  return NormalMap(128, [](double u, double v) { return 0.0005 * PeriodicFractal(u, v, 10, 2, 0.35, 310); });
 }
 
 std::vector<std::uint8_t> SoapThickness() {
@@ -30,8 +30,20 @@ std::vector<std::uint8_t> SoapThickness() {
   });
 }
 
-std::vector<std::uint8_t> VelvetNormal() {
-  return NormalMap(128, [](double u, double v) { return 0.006 * PeriodicFractal(u, v, 6, 3, 0.55, 340); });
+std::vector<std::uint8_t> PaperColor() {
+  return PngImage(128, [](double u, double v) {
+    const double rib = std::fmin(v, 1 - v), line = 0.45 + 0.55 * SmoothStep(0.015, 0.06, rib);
+    const double fibre = 0.04 * PeriodicNoise(u * 60, v * 12, 12, 350) + 0.05 * PeriodicFractal(u, v, 5, 3, 0.5, 351);
+    const double shade = (0.94 + fibre) * line;
+    return Vec3{shade, shade, shade};
+  });
+}
+
+std::vector<std::uint8_t> GrooveRoughness() {
+  return PngImage(128, [](double u, double v) {
+    const double fine = PeriodicNoise(u * 2, v * 128, 128, 360), wide = PeriodicNoise(u * 2, v * 40, 40, 361);
+    return Vec3{1, 0.78 + 0.14 * fine + 0.08 * wide, 1};
+  });
 }
 
 }  // namespace facet::assets

@@ -12,7 +12,9 @@ std::vector<std::uint8_t> FlakeNormal();
 std::vector<std::uint8_t> OrangePeelNormal();
 // Thickness (green) of a soap film that runs down: thin at the top, with swirls.
 std::vector<std::uint8_t> SoapThickness();
-// Normals of crushed velvet.
-std::vector<std::uint8_t> VelvetNormal();
+// Paper of a lantern, one rib from top to bottom: fibres, darker at the hoops.
+std::vector<std::uint8_t> PaperColor();
+// Roughness (green) of metal with grooves along u.
+std::vector<std::uint8_t> GrooveRoughness();
 
 }  // namespace facet::assets

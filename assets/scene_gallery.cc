@@ -8,6 +8,7 @@
 
 #include "baking.h"
 #include "facet/shader/elementary_double.h"
+#include "gallery_shapes.h"
 #include "gallery_textures.h"
 #include "image.h"
 #include "scenes.h"
@@ -23,7 +24,7 @@ constexpr double kLampRadius = 0.265;
 constexpr Vec3 kTeapotPlace{-0.10, 0.075, 0.14};
 constexpr Vec3 kGobletPlace{0.30, 0.27, -0.08};
 constexpr Vec3 kDrapePlace{-0.55, 0, -0.16};
-constexpr double kDrapeRadius = 0.155, kDrapeHeight = 0.40;
+constexpr double kDrapeRadius = 0.155, kDrapeHeight = 0.33;
 constexpr Vec3 kBowlPlace{-0.55, kDrapeHeight + 0.006, -0.16};
 constexpr Vec3 kGemPlace{0.585, 0.16, 0.20};
 
@@ -35,51 +36,17 @@ Json Extended(Glb& glb, Json material, const std::string& name, Json value) {
   return material;
 }
 
-// A smooth curve through `points` (Catmull and Rom), `pieces` straight ones between two of them.
-std::vector<Vec2> Smooth(const std::vector<Vec2>& points, int pieces) {
-  std::vector<Vec2> curve;
-  const int count = int(points.size());
-  const auto at = [&](int i) { return points[std::size_t(i < 0 ? 0 : i >= count ? count - 1 : i)]; };
-  for (int i = 0; i + 1 < count; ++i) {
-    const Vec2 a = at(i - 1), b = at(i), c = at(i + 1), d = at(i + 2);
-    for (int j = 0; j < pieces; ++j) {
-      const double t = double(j) / pieces, t2 = t * t, t3 = t2 * t;
-      const auto blend = [&](double p, double q, double r, double s) {
-        return 0.5 * (2 * q + (r - p) * t + (2 * p - 5 * q + 4 * r - s) * t2 + (3 * q - p - 3 * r + s) * t3);
-      };
-      curve.push_back({std::fmax(blend(a.x, b.x, c.x, d.x), 0.0), blend(a.y, b.y, c.y, d.y)});
-    }
-  }
-  curve.push_back(points.back());
-  return curve;
-}
-
-// Turned smoothly; u times `around`, v the length along the profile in metres times `per_metre`.
-Shape Turned(const std::vector<Vec2>& profile, int columns, double around, double per_metre) {
-  Shape shape = Lathe(profile, columns, true);
-  std::vector<double> length(profile.size(), 0);
-  for (std::size_t i = 1; i < profile.size(); ++i) {
-    const double dx = profile[i].x - profile[i - 1].x, dy = profile[i].y - profile[i - 1].y;
-    length[i] = length[i - 1] + std::sqrt(dx * dx + dy * dy);
-  }
-  for (std::size_t i = 0; i < shape.uvs.size(); ++i) {
-    shape.uvs[i] = {shape.uvs[i].x * around, length[i / std::size_t(columns + 1)] * per_metre};
-  }
-  return shape;
-}
-
 class GalleryMaker {
  public:
   GalleryMaker() : glb_("gallery") {}
 
   Glb Make() {
     // What blocks light must be known before the surfaces that it falls on.
-    const int low = AddPlinth("low plinth", {kTeapotPlace.x, 0, kTeapotPlace.z}, 0.25, kTeapotPlace.y,
-                              {0.66, 0.55, 0.42});
+    const int low =
+        AddPlinth("low plinth", {kTeapotPlace.x, 0, kTeapotPlace.z}, 0.25, kTeapotPlace.y, {0.66, 0.55, 0.42});
     const int tall =
         AddPlinth("tall plinth", {kGobletPlace.x, 0, kGobletPlace.z}, 0.115, kGobletPlace.y, {0.50, 0.19, 0.11});
-    const int small =
-        AddPlinth("small plinth", {kGemPlace.x, 0, kGemPlace.z}, 0.12, kGemPlace.y, {0.66, 0.55, 0.42});
+    const int small = AddPlinth("small plinth", {kGemPlace.x, 0, kGemPlace.z}, 0.12, kGemPlace.y, {0.66, 0.55, 0.42});
     AddTeapot();
     AddGoblet();
     AddDrape();
@@ -91,7 +58,7 @@ class GalleryMaker {
     AddBubbles();
     FinishPlinths({low, tall, small});
     AddBackdrop();
-    AddPerspectiveCamera(glb_, "gallery", {0.0, 0.66, 2.65}, {0.0, 0.415, 0.0}, 0.44);
+    AddPerspectiveCamera(glb_, "gallery", {0.0, 0.78, 2.62}, {0.0, 0.41, 0.0}, 0.44);
     return std::move(glb_);
   }
 
@@ -166,70 +133,25 @@ class GalleryMaker {
     }
     Json material = PlainMaterial("backdrop", {0.040, 0.125, 0.145}, 0, 0.8);
     material["occlusionTexture"] =
-        TextureInfo(glb_.AddTexture("backdrop light", BakeOcclusion(384, surface, blockers_, -1)));
+        TextureInfo(glb_.AddTexture("backdrop light", BakeOcclusion(256, surface, blockers_, -1)));
     Place("backdrop", Mesh("backdrop", shape, material), {});
   }
 
   // Car paint: metal flakes under clear lacquer.
   void AddTeapot() {
-    Json paint = PlainMaterial("car paint", {0.62, 0.018, 0.022}, 0.85, 0.34);
+    Json paint = PlainMaterial("car paint", {0.46, 0.008, 0.013}, 0.9, 0.42);
     paint["normalTexture"] = {{"index", glb_.AddTexture("flakes", FlakeNormal())}, {"scale", 1.0}};
     paint = Extended(glb_, paint, "clearcoat",
                      {{"clearcoatFactor", 1.0},
                       {"clearcoatRoughnessFactor", 0.02},
                       {"clearcoatNormalTexture", TextureInfo(glb_.AddTexture("orange peel", OrangePeelNormal()))}});
-    const std::vector<Vec2> body = Smooth({{0.068, 0.196},
-                                           {0.071, 0.199},
-                                           {0.078, 0.197},
-                                           {0.081, 0.190},
-                                           {0.088, 0.180},
-                                           {0.112, 0.155},
-                                           {0.133, 0.118},
-                                           {0.140, 0.080},
-                                           {0.130, 0.044},
-                                           {0.104, 0.020},
-                                           {0.088, 0.013},
-                                           {0.086, 0.004},
-                                           {0.080, 0.000},
-                                           {0.0, 0.0}},
-                                          6);
-    const std::vector<Vec2> lid = Smooth({{0.0, 0.262},
-                                          {0.012, 0.260},
-                                          {0.0195, 0.250},
-                                          {0.016, 0.238},
-                                          {0.010, 0.229},
-                                          {0.014, 0.223},
-                                          {0.036, 0.216},
-                                          {0.058, 0.206},
-                                          {0.068, 0.199},
-                                          {0.071, 0.195}},
-                                         6);
-    Shape pot = Turned(body, 96, 6, 7);
-    pot.Append(Turned(lid, 64, 3, 7));
-    const auto spout = [](double t) {
-      return Vec3{0.105 + 0.150 * t + 0.020 * Sin(2 * kPi * t) * (1 - 0.4 * t), 0.058 + 0.125 * t * t + 0.020 * t, 0};
-    };
-    Shape tube = Tube(
-        spout, [](double t) { return 0.036 - 0.030 * t + 0.011 * t * t * t; }, 40, 40);
-    for (Vec2& uv : tube.uvs) uv = {uv.x * 1.2, uv.y * 1.4};
-    pot.Append(tube);
-    // From the shoulder outwards and back to the belly.
-    const auto handle = [](double t) {
-      const double angle = kPi * (0.60 + 0.93 * t);
-      return Vec3{-0.128 + 0.098 * Cos(angle) - 0.012, 0.112 + 0.062 * Sin(angle) + 0.006, 0};
-    };
-    tube = Tube(
-        handle, [](double t) { return 0.0125 - 0.003 * Sin(kPi * t); }, 32, 48);
-    for (Vec2& uv : tube.uvs) uv = {uv.x * 0.5, uv.y * 2};
-    pot.Append(tube);
+    const TeapotShape teapot = Teapot();
     const double turn = -0.42;
     glb_.AddRootNode({{"name", "teapot"},
-                      {"mesh", Mesh("teapot", pot, paint)},
+                      {"mesh", Mesh("teapot", teapot.shape, paint)},
                       {"translation", ToJson(kTeapotPlace)},
                       {"rotation", Json::array({0.0, Sin(turn / 2), 0.0, Cos(turn / 2)})}});
-    std::vector<Vec2> outline = {{0, 0.26}, {0.02, 0.25}, {0.014, 0.225}};
-    outline.insert(outline.end(), body.begin() + 12, body.end());
-    Block(kTeapotPlace, outline);
+    Block(kTeapotPlace, teapot.outline);
     const Vec3 along{Cos(turn), 0, -Sin(turn)};
     Block(kTeapotPlace + along * 0.19, {{0, 0.16}, {0.03, 0.12}, {0.02, 0.08}, {0, 0.07}}, 0.9);
     Block(kTeapotPlace - along * 0.20, {{0, 0.18}, {0.025, 0.12}, {0, 0.05}}, 0.5);
@@ -245,20 +167,19 @@ class GalleryMaker {
   // A goblet with mead in it. The glass is a thin wall, the drink fills it.
   void AddGoblet() {
     constexpr double kWall = 0.0028;
-    const std::vector<Vec2> outside = {{0.0505, 0.300}, {0.0555, 0.275}, {0.0635, 0.240}, {0.0680, 0.208},
-                                       {0.0640, 0.176}, {0.0500, 0.152}, {0.0270, 0.136}, {0.0110, 0.127},
-                                       {0.0065, 0.110}, {0.0055, 0.070}, {0.0068, 0.030}, {0.0120, 0.015},
-                                       {0.0300, 0.008}, {0.0540, 0.004}, {0.0570, 0.002}, {0.0550, 0.000},
-                                       {0.0, 0.0}};
+    const std::vector<Vec2> outside = {
+        {0.0505, 0.300}, {0.0555, 0.275}, {0.0635, 0.240}, {0.0680, 0.208}, {0.0640, 0.176}, {0.0500, 0.152},
+        {0.0270, 0.136}, {0.0110, 0.127}, {0.0065, 0.110}, {0.0055, 0.070}, {0.0068, 0.030}, {0.0120, 0.015},
+        {0.0300, 0.008}, {0.0540, 0.004}, {0.0570, 0.002}, {0.0550, 0.000}, {0.0, 0.0}};
     std::vector<Vec2> inside = {{0, 0.138}, {0.020, 0.1395}};
     for (int i = 5; i >= 0; --i) {
       inside.push_back({outside[std::size_t(i)].x - kWall, outside[std::size_t(i)].y + (i == 5 ? 0.003 : 0)});
     }
-    std::vector<Vec2> profile = Smooth(inside, 6);
+    std::vector<Vec2> profile = SmoothProfile(inside, 3);
     profile.push_back({0.0493, 0.3012});
-    const std::vector<Vec2> outer = Smooth(outside, 6);
+    const std::vector<Vec2> outer = SmoothProfile(outside, 4);
     profile.insert(profile.end(), outer.begin(), outer.end());
-    Place("goblet", Mesh("goblet", Lathe(profile, 96, true), Glass("clear glass", 1.5, kWall)), kGobletPlace);
+    Place("goblet", Mesh("goblet", Lathe(profile, 72, true), Glass("clear glass", 1.5, kWall)), kGobletPlace);
 
     Json mead = Glass("mead", 1.36, 0.10);
     Json& volume = mead["extensions"]["KHR_materials_volume"];
@@ -266,11 +187,11 @@ class GalleryMaker {
     volume["attenuationDistance"] = 0.085;
     constexpr double kLevel = 0.236;
     std::vector<Vec2> fill;
-    for (const Vec2& p : Smooth(inside, 6)) {
+    for (const Vec2& p : SmoothProfile(inside, 3)) {
       if (p.y < kLevel) fill.push_back({std::fmax(p.x - 0.0006, 0.0), p.y + 0.0006});
     }
-    Shape drink = Lathe({{0, kLevel}, {fill.back().x, kLevel}}, 96, false);
-    drink.Append(Lathe({fill.rbegin(), fill.rend()}, 96, true));
+    Shape drink = Lathe({{0, kLevel}, {fill.back().x, kLevel}}, 72, false);
+    drink.Append(Lathe({fill.rbegin(), fill.rend()}, 72, true));
     Place("mead", Mesh("mead", drink, mead), kGobletPlace);
     Block(kGobletPlace, outer, 0.45);
   }
@@ -278,10 +199,10 @@ class GalleryMaker {
   // A square cloth over a round stand, falling in folds.
   void AddDrape() {
     constexpr int kFolds = 9;
-    constexpr double kRound = 0.022;  // of the edge
+    constexpr double kRound = 0.022;          // of the edge
     const auto depth_of = [](double angle) {  // how far the hem hangs: corners hang lower
       const double c = std::fabs(Cos(angle - 0.5)), s = std::fabs(Sin(angle - 0.5));
-      return std::fmin(0.30 / std::fmax(c, s) + 0.02, 0.42);
+      return std::fmin(0.315 / std::fmax(c, s), 0.43);
     };
     const auto wave = [](double angle) {  // of the folds, -1 to 1, with crests narrower than valleys
       const double phase = kFolds * angle + 0.9 * Sin(angle * 2 + 0.4) + 0.5 * Sin(3 * angle);
@@ -302,11 +223,11 @@ class GalleryMaker {
         height -= kRound * (1 - Cos(bend));
       }
       const double open = fall / 0.35, amount = open < 0 ? 0 : open;
-      radius += (0.040 + 0.045 * wave(angle)) * amount * (1.6 - 0.6 * std::fmin(amount, 1.0));
+      radius += (0.045 + 0.052 * wave(angle)) * amount * (1.6 - 0.6 * std::fmin(amount, 1.0));
       height = std::fmax(height, 0.004);
       return Vec3{radius * Sin(angle), height, radius * Cos(angle)};
     };
-    Shape cloth = GridSurface(216, 72, surface);
+    Shape cloth = GridSurface(180, 44, surface);
     Json velvet = PlainMaterial("velvet", {0.085, 0.010, 0.10}, 0, 0.9);
     velvet["doubleSided"] = true;
     velvet = Extended(glb_, velvet, "sheen",
@@ -327,59 +248,64 @@ class GalleryMaker {
 
   // A bowl of spun steel: the grooves run around it.
   void AddBowl() {
-    Json steel = PlainMaterial("brushed steel", {0.80, 0.78, 0.75}, 1, 0.30);
-    steel = Extended(glb_, steel, "anisotropy", {{"anisotropyStrength", 0.85}, {"anisotropyRotation", 0.0}});
-    const std::vector<Vec2> outside = {{0.1300, 0.112}, {0.1265, 0.096}, {0.1150, 0.066}, {0.0940, 0.040},
-                                       {0.0640, 0.022}, {0.0480, 0.016}, {0.0460, 0.006}, {0.0500, 0.000},
-                                       {0.0, 0.0}};
-    const std::vector<Vec2> inside = {{0, 0.024}, {0.035, 0.026}, {0.0640, 0.034}, {0.0910, 0.050},
+    Json steel = PlainMaterial("brushed steel", {0.78, 0.76, 0.73}, 1, 0.42);
+    steel["pbrMetallicRoughness"]["metallicRoughnessTexture"] =
+        TextureInfo(glb_.AddTexture("grooves", GrooveRoughness()));
+    steel = Extended(glb_, steel, "anisotropy", {{"anisotropyStrength", 0.85}, {"anisotropyRotation", kPi / 2}});
+    const std::vector<Vec2> outside = {{0.1300, 0.112}, {0.1265, 0.096}, {0.1150, 0.066},
+                                       {0.0940, 0.040}, {0.0640, 0.022}, {0.0480, 0.016},
+                                       {0.0460, 0.006}, {0.0500, 0.000}, {0.0, 0.0}};
+    const std::vector<Vec2> inside = {{0, 0.024},      {0.035, 0.026},  {0.0640, 0.034}, {0.0910, 0.050},
                                       {0.1105, 0.074}, {0.1215, 0.100}, {0.1262, 0.1135}};
-    std::vector<Vec2> profile = Smooth(inside, 6);
+    std::vector<Vec2> profile = SmoothProfile(inside, 3);
     profile.push_back({0.1282, 0.1150});
-    const std::vector<Vec2> outer = Smooth(outside, 6);
+    const std::vector<Vec2> outer = SmoothProfile(outside, 4);
     profile.insert(profile.end(), outer.begin(), outer.end());
-    Place("bowl", Mesh("bowl", Turned(profile, 96, 1, 4), steel), kBowlPlace);
+    Place("bowl", Mesh("bowl", Turned(profile, 80, 1, 4), steel), kBowlPlace);
     Block(kBowlPlace, outer);
   }
 
   // A paper lantern with ribs; the light inside shines through the paper.
   void AddLamp() {
-    constexpr int kRibs = 13, kPiecesPerRib = 6, kPieces = kRibs * kPiecesPerRib;
+    constexpr int kRibs = 13, kPiecesPerRib = 4, kPieces = kRibs * kPiecesPerRib;
     std::vector<Vec2> profile;
     for (int i = 0; i <= kPieces; ++i) {
       const double phi = kPi * (0.07 + 0.86 * i / kPieces);
       const double part = double(i % kPiecesPerRib) / kPiecesPerRib;
-      const double radius = kLampRadius * (1 + 0.020 * Sin(kPi * part));
+      const double radius = kLampRadius * (1 + 0.026 * Sin(kPi * part));
       profile.push_back({radius * Sin(phi), radius * Cos(phi) * 0.96});
     }
-    Json paper = PlainMaterial("paper", {0.90, 0.84, 0.74}, 0, 0.9);
+    Json paper = PlainMaterial("paper", {0.66, 0.56, 0.44}, 0, 0.9);
     paper["doubleSided"] = true;
+    const Json fibres = TextureInfo(glb_.AddTexture("paper", PaperColor()));
+    paper["pbrMetallicRoughness"]["baseColorTexture"] = fibres;
     paper = Extended(glb_, paper, "diffuse_transmission",
-                     {{"diffuseTransmissionFactor", 0.55}, {"diffuseTransmissionColorFactor", ToJson({1, 0.90, 0.74})}});
-    Place("lantern", Mesh("lantern", Lathe(profile, 96, true), paper), kLampPlace);
+                     {{"diffuseTransmissionFactor", 0.75},
+                      {"diffuseTransmissionColorFactor", ToJson({1, 0.84, 0.62})},
+                      {"diffuseTransmissionColorTexture", fibres}});
+    Shape lantern = Lathe(profile, 64, true);
+    for (Vec2& uv : lantern.uvs) uv = {uv.x * 3, uv.y * kRibs};
+    Place("lantern", Mesh("lantern", lantern, paper), kLampPlace);
     const double top = profile.front().y;
     Shape wire = Lathe({{0.003, 1.6}, {0.003, top + 0.012}}, 12, true);
     wire.Append(Lathe({{0.0, top + 0.016}, {profile.front().x, top + 0.010}, {profile.front().x + 0.002, top - 0.004}},
                       48, false));
     Place("wire", Mesh("wire", wire, PlainMaterial("wire", {0.03, 0.03, 0.03}, 0, 0.5)), kLampPlace);
-    AddLight(glb_, "lantern light",
-             {{"type", "point"}, {"color", ToJson({1, 0.66, 0.36})}, {"intensity", 0.42}},
-             {{"translation", ToJson(kLampPlace + Vec3{0, -0.05, 0})}});
+    AddLight(glb_, "lantern light", {{"type", "point"}, {"color", ToJson({1, 0.60, 0.27})}, {"intensity", 0.21}},
+             {{"translation", ToJson(kLampPlace + Vec3{0, -0.09, 0})}});
     Block(kLampPlace, profile, 0.8);
   }
 
   // A brilliant, lying on its side.
   void AddGem() {
-    Json glass = Glass("cut crystal", 1.9, 0.07);
+    Json glass = Glass("cut crystal", 1.9, 0.8);
     glass = Extended(glb_, glass, "dispersion", {{"dispersion", 3.0}});
-    const Shape gem = Prism({{0, 0.034}, {0.052, 0.034}, {0.078, 0.014}, {0.086, 0.0}, {0.086, -0.004}, {0.044, -0.046},
-                             {0.0, -0.078}},
-                            12);
     const double tilt = 0.80;
     glb_.AddRootNode({{"name", "crystal"},
-                      {"mesh", Mesh("crystal", gem, glass)},
-                      {"translation", ToJson(kGemPlace + Vec3{0, 0.060, 0})},
-                      {"rotation", Json::array({Sin(tilt / 2), 0.0, 0.0, Cos(tilt / 2)})}});
+                      {"mesh", Mesh("crystal", Brilliant(), glass)},
+                      {"translation", ToJson(kGemPlace + Vec3{0, 0.062, 0})},
+                      {"rotation", Json::array({Sin(tilt / 2), 0.0, 0.0, Cos(tilt / 2)})},
+                      {"scale", ToJson({0.09, 0.09, 0.09})}});
     Block(kGemPlace, {{0, 0.11}, {0.07, 0.06}, {0.02, 0.0}}, 0.4);
   }
 
@@ -392,7 +318,7 @@ class GalleryMaker {
     constexpr double kRing = 0.085, kTube = 0.026;
     const double lean = kPi / 2 - 0.30;
     glb_.AddRootNode({{"name", "ring"},
-                      {"mesh", Mesh("ring", Torus(kRing, kTube, 96, 40), glass)},
+                      {"mesh", Mesh("ring", Torus(kRing, kTube, 72, 32), glass)},
                       {"translation", ToJson({0.335, (kRing * Sin(lean)) + kTube, 0.115})},
                       {"rotation", Json::array({Sin(lean / 2), 0.0, 0.0, Cos(lean / 2)})}});
     Block({0.335, 0, 0.12}, {{0, 0.06}, {0.05, 0.03}, {0.04, 0.0}}, 0.5);
@@ -401,29 +327,26 @@ class GalleryMaker {
   // Metal with a film on it.
   void AddPearls() {
     const Shape ball = Sphere(64, 32);
-    struct Pearl {
-      const char* name;
-      Vec3 at;
-      double radius, thickness;
+    const auto place = [&](const std::string& name, Vec3 at, double radius, int mesh) {
+      Place(name, mesh, at, Vec3{1, 1, 1} * radius);
+      Block(at, {{0, radius}, {0.7 * radius, 0.7 * radius}, {radius, 0}, {0.7 * radius, -0.7 * radius}, {0, -radius}});
     };
-    for (const Pearl& pearl : {Pearl{"green pearl", {-0.47, 0.052, 0.34}, 0.052, 480},
-                               Pearl{"violet pearl", {-0.365, 0.036, 0.44}, 0.036, 330},
-                               Pearl{"gold pearl", {-0.555, 0.028, 0.45}, 0.028, 255}}) {
-      Json metal = PlainMaterial(pearl.name, {0.62, 0.60, 0.58}, 1, 0.13);
-      metal = Extended(glb_, metal, "iridescence",
-                       {{"iridescenceFactor", 1.0},
-                        {"iridescenceIor", 1.9},
-                        {"iridescenceThicknessMaximum", pearl.thickness}});
+    const auto film = [&](const char* name, double thickness) {
+      Json metal = PlainMaterial(name, {0.62, 0.60, 0.58}, 1, 0.13);
+      metal =
+          Extended(glb_, metal, "iridescence",
+                   {{"iridescenceFactor", 1.0}, {"iridescenceIor", 1.9}, {"iridescenceThicknessMaximum", thickness}});
       Json primitive = ball_.is_null() ? ball_ = glb_.MakePrimitive(ball, 0) : ball_;
       primitive["material"] = glb_.AddMaterial(metal);
-      const int mesh = glb_.Add("meshes", {{"name", pearl.name}, {"primitives", Json::array({primitive})}});
-      Place(pearl.name, mesh, pearl.at, Vec3{1, 1, 1} * pearl.radius);
-      Block(pearl.at, {{0, pearl.radius},
-                       {0.7 * pearl.radius, 0.7 * pearl.radius},
-                       {pearl.radius, 0},
-                       {0.7 * pearl.radius, -0.7 * pearl.radius},
-                       {0, -pearl.radius}});
-    }
+      return glb_.Add("meshes", {{"name", name}, {"primitives", Json::array({primitive})}});
+    };
+    const int green = film("green pearl", 480), blue = film("blue pearl", 255), gold = film("gold pearl", 330);
+    place("green pearl", {-0.47, 0.052, 0.34}, 0.052, green);
+    place("gold pearl", {-0.365, 0.036, 0.44}, 0.036, gold);
+    place("blue pearl", {-0.585, 0.028, 0.42}, 0.028, blue);
+    place("gold pearl in the bowl", kBowlPlace + Vec3{-0.040, 0.082, 0.020}, 0.044, gold);
+    place("blue pearl in the bowl", kBowlPlace + Vec3{0.046, 0.080, 0.020}, 0.040, blue);
+    place("green pearl in the bowl", kBowlPlace + Vec3{0.004, 0.086, -0.050}, 0.046, green);
   }
 
   // A film of soap and nothing inside: the air's index of refraction under the film's.

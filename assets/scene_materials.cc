@@ -38,7 +38,7 @@ Json Glass(double roughness, double ior) {
 }
 
 Json CarPaint() { return PlainMaterial("", {0.55, 0.02, 0.03}, 0.6, 0.55); }
-Json Velvet() { return PlainMaterial("", {0.06, 0.012, 0.10}, 0, 1); }
+Json Velvet() { return PlainMaterial("", {0.045, 0.010, 0.085}, 0, 1); }
 Json Steel() { return PlainMaterial("", {0.72, 0.71, 0.69}, 1, 0.32); }
 
 std::vector<Row> Rows() {
@@ -54,7 +54,7 @@ std::vector<Row> Rows() {
        }},
       {"sheen", "sheenColorFactor", "sheen colour", "black to lilac", false,
        [=](double t) {
-         return Extended(Velvet(), "sheen", {{"sheenColorFactor", ToJson(sheen * t)}, {"sheenRoughnessFactor", 0.35}});
+         return Extended(Velvet(), "sheen", {{"sheenColorFactor", ToJson(sheen * t)}, {"sheenRoughnessFactor", 0.5}});
        }},
       {"sheen", "sheenRoughnessFactor", "sheen roughness", "0 to 1", false,
        [=](double t) {
