@@ -40,8 +40,8 @@ std::vector<std::uint8_t> PaperColor() {
 }
 
 std::vector<std::uint8_t> GrooveRoughness() {
-  return PngImage(128, [](double u, double v) {
-    const double fine = PeriodicNoise(u * 2, v * 128, 128, 360), wide = PeriodicNoise(u * 2, v * 40, 40, 361);
+  return PngImage(128, [](double, double v) {
+    const double fine = PeriodicNoise(0.5, v * 128, 128, 360), wide = PeriodicNoise(0.5, v * 32, 32, 361);
     return Vec3{1, 0.78 + 0.14 * fine + 0.08 * wide, 1};
   });
 }

@@ -209,21 +209,21 @@ class GalleryMaker {
       const double w = 0.5 + 0.5 * Sin(phase);
       return 2 * w * w * (1.5 - 0.5 * w) - 1;
     };
+    constexpr double kFlatPart = 0.12, kRoundPart = 0.30;  // of v, at the end of the flat part and of the edge
     const auto surface = [&](double u, double v) {
-      const double angle = (u == 1.0 ? 0.0 : u) * 2 * kPi, s = v * (kDrapeRadius + depth_of(angle));
-      const double flat = kDrapeRadius - kRound, quarter = kRound * kPi / 2;
-      double radius = s, height = kDrapeHeight + 0.004, fall = 0;
-      if (s > flat + quarter) {
-        fall = s - flat - quarter;
+      const double angle = (u == 1.0 ? 0.0 : u) * 2 * kPi, flat = kDrapeRadius - kRound;
+      double radius = flat * v / kFlatPart, height = kDrapeHeight + 0.004, fall = 0;
+      if (v > kRoundPart) {
+        fall = (v - kRoundPart) / (1 - kRoundPart) * (depth_of(angle) - kRound);
         radius = kDrapeRadius;
         height -= kRound + fall;
-      } else if (s > flat) {
-        const double bend = (s - flat) / kRound;
+      } else if (v > kFlatPart) {
+        const double bend = (v - kFlatPart) / (kRoundPart - kFlatPart) * kPi / 2;
         radius = flat + kRound * Sin(bend);
         height -= kRound * (1 - Cos(bend));
       }
-      const double open = fall / 0.35, amount = open < 0 ? 0 : open;
-      radius += (0.045 + 0.052 * wave(angle)) * amount * (1.6 - 0.6 * std::fmin(amount, 1.0));
+      const double open = fall / 0.35;
+      radius += (0.045 + 0.052 * wave(angle)) * open * (1.6 - 0.6 * std::fmin(open, 1.0));
       height = std::fmax(height, 0.004);
       return Vec3{radius * Sin(angle), height, radius * Cos(angle)};
     };
@@ -232,10 +232,12 @@ class GalleryMaker {
     velvet["doubleSided"] = true;
     velvet = Extended(glb_, velvet, "sheen",
                       {{"sheenColorFactor", ToJson({0.75, 0.32, 0.85})}, {"sheenRoughnessFactor", 0.35}});
-    const auto occlusion = [&](double u, double v) {  // valleys between folds are darker, and darker below
-      const double below = v < 0.4 ? 0 : (v - 0.4) / 0.6, angle = 2 * kPi * u;
+    const auto occlusion = [&](double u, double v) {
+      if (v < kFlatPart) return 0.35 + 0.65 * SmoothStep(0.3, 0.95, v / kFlatPart);  // under the bowl
+      // Valleys between folds are darker, and darker below.
+      const double below = SmoothStep(0.3, 1.1, v), angle = 2 * kPi * u;
       const double valley = 0.5 - 0.5 * wave(angle);
-      return 1 - below * (0.20 + 0.55 * valley);
+      return 1 - below * (0.25 + 0.65 * valley);
     };
     velvet["occlusionTexture"] = TextureInfo(glb_.AddTexture("velvet light", PngImage(128, [&](double u, double v) {
                                                                const double left = occlusion(u, v);
@@ -261,7 +263,11 @@ class GalleryMaker {
     profile.push_back({0.1282, 0.1150});
     const std::vector<Vec2> outer = SmoothProfile(outside, 4);
     profile.insert(profile.end(), outer.begin(), outer.end());
-    Place("bowl", Mesh("bowl", Turned(profile, 80, 1, 4), steel), kBowlPlace);
+    const double turn = 2.0;  // the seam of the texture coordinates to the back
+    glb_.AddRootNode({{"name", "bowl"},
+                      {"mesh", Mesh("bowl", Turned(profile, 80, 1, 4), steel)},
+                      {"translation", ToJson(kBowlPlace)},
+                      {"rotation", Json::array({0.0, Sin(turn / 2), 0.0, Cos(turn / 2)})}});
     Block(kBowlPlace, outer);
   }
 
