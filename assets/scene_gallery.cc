@@ -41,12 +41,9 @@ class GalleryMaker {
   GalleryMaker() : glb_("gallery") {}
 
   Glb Make() {
-    // What blocks light must be known before the surfaces that it falls on.
-    const int low =
-        AddPlinth("low plinth", {kTeapotPlace.x, 0, kTeapotPlace.z}, 0.25, kTeapotPlace.y, {0.66, 0.55, 0.42});
-    const int tall =
-        AddPlinth("tall plinth", {kGobletPlace.x, 0, kGobletPlace.z}, 0.115, kGobletPlace.y, {0.50, 0.19, 0.11});
-    const int small = AddPlinth("small plinth", {kGemPlace.x, 0, kGemPlace.z}, 0.12, kGemPlace.y, {0.66, 0.55, 0.42});
+    PlanPlinth("low plinth", {kTeapotPlace.x, 0, kTeapotPlace.z}, 0.25, kTeapotPlace.y, {0.66, 0.55, 0.42});
+    PlanPlinth("tall plinth", {kGobletPlace.x, 0, kGobletPlace.z}, 0.115, kGobletPlace.y, {0.50, 0.19, 0.11});
+    PlanPlinth("small plinth", {kGemPlace.x, 0, kGemPlace.z}, 0.12, kGemPlace.y, {0.66, 0.55, 0.42});
     AddTeapot();
     AddGoblet();
     AddDrape();
@@ -56,7 +53,8 @@ class GalleryMaker {
     AddRing();
     AddPearls();
     AddBubbles();
-    FinishPlinths({low, tall, small});
+    // When all that blocks light is known, the surfaces that it falls on.
+    AddPlinths();
     AddBackdrop();
     AddPerspectiveCamera(glb_, "gallery", {0.0, 0.78, 2.62}, {0.0, 0.41, 0.0}, 0.44);
     return std::move(glb_);
@@ -84,7 +82,7 @@ class GalleryMaker {
     blockers_.push_back({place, profile, opacity});
   }
 
-  int AddPlinth(const std::string& name, Vec3 place, double radius, double height, Vec3 color) {
+  void PlanPlinth(const std::string& name, Vec3 place, double radius, double height, Vec3 color) {
     constexpr double kEdge = 0.005;
     const std::vector<Vec2> profile = {{0, height},
                                        {radius - kEdge, height},
@@ -93,12 +91,10 @@ class GalleryMaker {
                                        {radius, 0}};
     plinths_.push_back({name, profile, place, color, int(blockers_.size())});
     Block(place, profile);
-    return int(plinths_.size()) - 1;
   }
 
-  void FinishPlinths(const std::vector<int>& plinths) {
-    for (int index : plinths) {
-      const Plinth& plinth = plinths_[std::size_t(index)];
+  void AddPlinths() {
+    for (const Plinth& plinth : plinths_) {
       const int segments = int(plinth.profile.size()) - 1;
       const auto surface = [&](double u, double v) {
         const int j = std::min(int(v * segments), segments - 1);
@@ -325,9 +321,9 @@ class GalleryMaker {
     const double lean = kPi / 2 - 0.30;
     glb_.AddRootNode({{"name", "ring"},
                       {"mesh", Mesh("ring", Torus(kRing, kTube, 72, 32), glass)},
-                      {"translation", ToJson({0.335, (kRing * Sin(lean)) + kTube, 0.115})},
+                      {"translation", ToJson({0.335, (kRing * Sin(lean)) + kTube, 0.092})},
                       {"rotation", Json::array({Sin(lean / 2), 0.0, 0.0, Cos(lean / 2)})}});
-    Block({0.335, 0, 0.12}, {{0, 0.06}, {0.05, 0.03}, {0.04, 0.0}}, 0.5);
+    Block({0.335, 0, 0.10}, {{0, 0.06}, {0.05, 0.03}, {0.04, 0.0}}, 0.5);
   }
 
   // Metal with a film on it.
