@@ -19,10 +19,10 @@ namespace {
 constexpr double kWallDistance = 1.25, kSweep = 0.75;  // the backdrop's wall, and the radius with which it rises
 constexpr double kBackdropHalfWidth = 2.4, kBackdropFront = 1.9, kBackdropHeight = 1.9;
 
-constexpr Vec3 kLampPlace{0.20, 0.66, -0.55};
+constexpr Vec3 kLampPlace{0.25, 0.64, -0.55};
 constexpr double kLampRadius = 0.265;
 constexpr Vec3 kTeapotPlace{-0.10, 0.075, 0.14};
-constexpr Vec3 kGobletPlace{0.30, 0.27, -0.08};
+constexpr Vec3 kGobletPlace{0.29, 0.375, -0.08};
 constexpr Vec3 kDrapePlace{-0.55, 0, -0.16};
 constexpr double kDrapeRadius = 0.155, kDrapeHeight = 0.33;
 constexpr Vec3 kBowlPlace{-0.55, kDrapeHeight + 0.006, -0.16};
@@ -42,7 +42,7 @@ class GalleryMaker {
 
   Glb Make() {
     PlanPlinth("low plinth", {kTeapotPlace.x, 0, kTeapotPlace.z}, 0.25, kTeapotPlace.y, {0.66, 0.55, 0.42});
-    PlanPlinth("tall plinth", {kGobletPlace.x, 0, kGobletPlace.z}, 0.115, kGobletPlace.y, {0.50, 0.19, 0.11});
+    PlanPlinth("tall plinth", {kGobletPlace.x, 0, kGobletPlace.z}, 0.115, kGobletPlace.y, {0.72, 0.61, 0.47});
     PlanPlinth("small plinth", {kGemPlace.x, 0, kGemPlace.z}, 0.12, kGemPlace.y, {0.66, 0.55, 0.42});
     AddTeapot();
     AddGoblet();
@@ -177,10 +177,10 @@ class GalleryMaker {
     profile.insert(profile.end(), outer.begin(), outer.end());
     Place("goblet", Mesh("goblet", Lathe(profile, 72, true), Glass("clear glass", 1.5, kWall)), kGobletPlace);
 
-    Json mead = Glass("mead", 1.36, 0.10);
+    Json mead = Glass("mead", 1.36, 0.07);
     Json& volume = mead["extensions"]["KHR_materials_volume"];
     volume["attenuationColor"] = ToJson({0.95, 0.42, 0.07});
-    volume["attenuationDistance"] = 0.085;
+    volume["attenuationDistance"] = 0.10;
     constexpr double kLevel = 0.236;
     std::vector<Vec2> fill;
     for (const Vec2& p : SmoothProfile(inside, 3)) {
@@ -313,10 +313,10 @@ class GalleryMaker {
 
   // A ring of blue glass, leaning on the tall plinth.
   void AddRing() {
-    Json glass = Glass("blue glass", 1.5, 0.05);
+    Json glass = Glass("blue glass", 1.5, 0.035);
     Json& volume = glass["extensions"]["KHR_materials_volume"];
     volume["attenuationColor"] = ToJson({0.20, 0.62, 0.80});
-    volume["attenuationDistance"] = 0.05;
+    volume["attenuationDistance"] = 0.06;
     constexpr double kRing = 0.085, kTube = 0.026;
     const double lean = kPi / 2 - 0.30;
     glb_.AddRootNode({{"name", "ring"},

@@ -15,7 +15,7 @@ namespace {
 constexpr int kSteps = 7, kRowsPerBlock = 8;
 constexpr double kRadius = 0.5, kSpacing = 1.08, kPitch = 1.5, kBlockGap = 0.9;
 constexpr double kBlockWidth = (kSteps - 1) * kSpacing + 2 * kRadius;
-constexpr double kCell = 0.18;  // of the checks behind glass
+constexpr double kCell = 0.12;  // of the checks behind glass
 
 struct Row {
   std::string extension, parameter;  // the parameter as the extension names it
@@ -29,11 +29,11 @@ Json Extended(Json material, const std::string& name, Json value) {
   return material;
 }
 
-// Clear glass that fills the sphere.
-Json Glass(double roughness, double ior) {
+// Clear glass that fills the sphere, or as much of it as `thickness` says.
+Json Glass(double roughness, double ior, double thickness = 2 * kRadius) {
   Json glass = PlainMaterial("", {1, 1, 1}, 0, roughness);
   glass = Extended(glass, "transmission", {{"transmissionFactor", 1.0}});
-  glass = Extended(glass, "volume", {{"thicknessFactor", 2 * kRadius}});
+  glass = Extended(glass, "volume", {{"thicknessFactor", thickness}});
   return Extended(glass, "ior", {{"ior", ior}});
 }
 
@@ -103,8 +103,8 @@ std::vector<Row> Rows() {
        [](double t) {
          return Extended(PlainMaterial("", {0.98, 0.72, 0.35}, 0, 0), "transmission", {{"transmissionFactor", t}});
        }},
-      {"transmission", "roughnessFactor", "transmission roughness", "0 to 1", true,
-       [](double t) { return Glass(t, 1.5); }},
+      {"transmission", "roughnessFactor", "transmission roughness", "0 to 0.6", true,
+       [](double t) { return Glass(0.6 * t, 1.5, 0.12); }},
       {"ior", "ior", "ior", "1 to 2.5", true, [](double t) { return Glass(0, 1 + 1.5 * t); }},
       {"volume", "attenuationDistance", "volume attenuation distance", "8 to 0.13 diameters", true,
        [](double t) {
@@ -116,7 +116,7 @@ std::vector<Row> Rows() {
        }},
       {"dispersion", "dispersion", "dispersion", "0 to 6", true,
        [](double t) {
-         return Extended(Glass(0, 1.5), "dispersion", {{"dispersion", 6 * t}});
+         return Extended(Glass(0, 1.7), "dispersion", {{"dispersion", 6 * t}});
        }},
   };
 }
@@ -139,7 +139,7 @@ int UnlitMaterial(Glb& glb, const char* name, Vec3 color) {
 
 // Dark squares, every second one of a block's row.
 Shape Checks() {
-  const int columns = int(kBlockWidth / kCell + 0.5), rows = 6;
+  const int columns = int(kBlockWidth / kCell + 0.5), rows = 9;
   Shape shape;
   for (int j = 0; j < rows; ++j) {
     for (int i = j % 2; i < columns; i += 2) {
