@@ -152,12 +152,6 @@ Shape Checks() {
   return shape;
 }
 
-std::string Decimal(double t) {  // two digits
-  const int hundredths = int(t * 100 + 0.5);
-  const std::string digits = std::to_string(100 + hundredths % 100).substr(1);
-  return std::to_string(hundredths / 100) + "." + digits;
-}
-
 }  // namespace
 
 Glb Materials() {
@@ -189,9 +183,10 @@ Glb Materials() {
     node["translation"] = ToJson({left, height, 0});
     for (int step = 0; step < kSteps; ++step) {
       const double t = double(step) / (kSteps - 1);
-      const std::string name = row.parameter + " at " + Decimal(t);
+      const std::string where = ", step " + std::to_string(step) + " of " + std::to_string(kSteps - 1);
+      const std::string name = row.parameter + where;
       Json material = row.material(t);
-      material["name"] = row.title + " " + Decimal(t);
+      material["name"] = row.title + where;
       for (const auto& item : material["extensions"].items()) glb.UseExtension(item.key());
       Json primitive = sphere;  // the same accessors with another material
       primitive["material"] = glb.AddMaterial(std::move(material));
