@@ -49,7 +49,7 @@ struct FramePlan {
   bool punctual_lights = false;
   bool alpha_test = false;
   bool blending = false;
-  bool transmission = false;  // some material is seen through
+  bool transmission = false;      // some material is seen through
   std::vector<PlaneKind> planes;  // of the film, besides colour
   bool zero_light = false;        // add a light of intensity zero
   bool every_texture = false;  // decode textures even if no visible material reads them

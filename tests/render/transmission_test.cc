@@ -113,8 +113,7 @@ TEST(Transmission, BlendedSurfacesBetweenPanesAreInTheirPlace) {
   AddPane(scene, 1, Unlit({0.2f, 0.4f, 0.6f, 0.25f}, AlphaMode::Blend));
   const Film film = Render(scene, FlatView());
   const glm::vec3 front = glm::vec3(1.0f, 0.5f, 0.5f) * kClear, rear = glm::vec3(0.5f, 1.0f, 0.5f) * kClear;
-  const glm::vec3 want =
-      front * (glm::vec3(0.2f, 0.4f, 0.6f) * 0.25f + 0.75f * rear * glm::vec3(0.8f, 0.6f, 0.5f));
+  const glm::vec3 want = front * (glm::vec3(0.2f, 0.4f, 0.6f) * 0.25f + 0.75f * rear * glm::vec3(0.8f, 0.6f, 0.5f));
   ExpectNear(PixelAt(film, 20, 30), glm::vec4(want, 1.0f), 2e-3f);
 }
 
@@ -141,12 +140,12 @@ TEST(Transmission, LeavesATransparentBackgroundTransparent) {
 }
 
 TEST(Transmission, WhiteGlassInAnEvenLightCannotBeSeen) {
-  for (const Material& glass : {Glass(glm::vec3(1.0f)), Glass(glm::vec3(1.0f), 0.6f), Slab(0.5f, 1.5f),
-                                Slab(0.5f, 2.0f, 0.4f), [] {
-                                  Material m = Slab(0.5f, 1.7f, 0.1f);
-                                  m.dispersion = 5.0f;
-                                  return m;
-                                }()}) {
+  for (const Material& glass :
+       {Glass(glm::vec3(1.0f)), Glass(glm::vec3(1.0f), 0.6f), Slab(0.5f, 1.5f), Slab(0.5f, 2.0f, 0.4f), [] {
+          Material m = Slab(0.5f, 1.7f, 0.1f);
+          m.dispersion = 5.0f;
+          return m;
+        }()}) {
     Scene scene;
     Add(scene, Sphere(0.8f, 24, 48), AddMaterial(scene, glass));
     RenderSettings settings = Settings(kSize, kSize, 4, Perspective(0.3, {0, 0, 6}));
@@ -170,7 +169,8 @@ TEST(Transmission, ASlabShiftsWhatIsBehindBySnellsLaw) {
       Add(scene, Rectangle(0, -30, 30, 30, -8), AddMaterial(scene, Unlit(glm::vec4(1.0f))));
       const float scale = 0.5f, thickness = 0.6f;
       const auto turn = glm::dquat(std::cos(angle / 2), 0, std::sin(angle / 2), 0);
-      Add(scene, Rectangle(-9, -9, 9, 9), AddMaterial(scene, Slab(thickness, ior)), At({0, 0, 0}, turn, glm::dvec3(double(scale))));
+      Add(scene, Rectangle(-9, -9, 9, 9), AddMaterial(scene, Slab(thickness, ior)),
+          At({0, 0, 0}, turn, glm::dvec3(double(scale))));
       const Film film = Render(scene, FlatView());
       double sum = 0.0;
       for (int x = 0; x < kSize; ++x) sum += double(PixelAt(film, x, 17).x / PixelAt(film, kSize - 1, 17).x);
@@ -296,7 +296,8 @@ TEST(Transmission, ExtremesAreFinite) {
           m.attenuation_distance = distance;
           m.dispersion = 20.0f;
           m.double_sided = true;
-          Add(scene, Rectangle(-1, -1, 1, 1), AddMaterial(scene, m), At({0, 0, 0}, glm::dquat(0.9, 0.3, 0.2, 0.1), scale));
+          Add(scene, Rectangle(-1, -1, 1, 1), AddMaterial(scene, m),
+              At({0, 0, 0}, glm::dquat(0.9, 0.3, 0.2, 0.1), scale));
           for (const bool flat : {false, true}) {
             const CameraChoice camera =
                 flat ? CameraChoice(Orthographic(1.0)) : CameraChoice(Perspective(0.5, {0, 0, 5}));
