@@ -138,8 +138,8 @@ void Backdrop::AddSpline(std::size_t level, float x, float y, float nearest, flo
     weights[axis][2] = (r * r * (3.0f * r - 6.0f) + 4.0f) * sixth;
     weights[axis][3] = t * t * t * sixth;
   }
-  AddWeighted(level, static_cast<int>(left) - 1, static_cast<int>(top) - 1, 4, weights[0], weights[1],
-              nearest, share, sum);
+  AddWeighted(level, static_cast<int>(left) - 1, static_cast<int>(top) - 1, 4, weights[0], weights[1], nearest, share,
+              sum);
 }
 
 Backdrop::Mean Backdrop::Around(float x, float y, float deviation, float nearest) const {

@@ -111,7 +111,8 @@ void ThroughCompositor::SeeEnvironment(const Seen& seen, const glm::vec3& weight
     out.weight.push_back(share);
     out.pixel.push_back(pixel);
   };
-  const bool same = seen.x[0] == seen.x[1] && seen.x[0] == seen.x[2] && seen.y[0] == seen.y[1] && seen.y[0] == seen.y[2];
+  const bool same =
+      seen.x[0] == seen.x[1] && seen.x[0] == seen.x[2] && seen.y[0] == seen.y[1] && seen.y[0] == seen.y[2];
   if (same) return add(0, weight);
   for (int c = 0; c < 3; ++c) {
     glm::vec3 share(0.0f);
@@ -159,7 +160,8 @@ void ThroughCompositor::Run(const ThroughView& view, const TileBuffers& tile, co
       const float sample_y = static_cast<float>((y - block_y) * kSampleGrid + pattern[s].y) / kSampleGrid;
       sorted_.clear();
       for (std::uint32_t k = 0; k < end - begin; ++k) {
-        if (layers.list.samples[fragment_of_[k]] >> s & 1) sorted_.push_back({DepthAt(planes_[k], sample_x, sample_y), k});
+        if (layers.list.samples[fragment_of_[k]] >> s & 1)
+          sorted_.push_back({DepthAt(planes_[k], sample_x, sample_y), k});
       }
       std::sort(sorted_.begin(), sorted_.end(), IsBehind);
       const Passed passed = WalkLayers(layers);

@@ -36,8 +36,8 @@ struct ThroughView {
 // At each sample the layers' own light is multiplied by the tints of those in front. Where none of them refracts or
 // blurs, the sample's own opaque surface (or `background`) is seen. Otherwise shifts add up, and squares of blurs, and
 // the backdrop answers there. Not seen is what is nearer than the rearmost refracting layer: if all that would be seen
-// is, a narrower blur is tried, then half of the shift, and at last the sample's own opaque surface answers. Outside of the picture there is only the
-// background.
+// is, a narrower blur is tried, then half of the shift, and at last the sample's own opaque surface answers. Outside of
+// the picture there is only the background.
 class ThroughCompositor {
  public:
   // Replaces those of `pixels` (tile_size a row) that layers cover. Arguments as Compositor::Run().
@@ -65,8 +65,8 @@ class ThroughCompositor {
   void SeeEnvironment(const Seen& seen, const glm::vec3& weight, std::uint32_t pixel, EnvironmentSeen& out) const;
 
   FragmentsByPixel layers_of_, opaque_of_;
-  std::vector<BlockDepth> planes_;  // of the pixel's layers
-  std::vector<Layer> sorted_;       // of a sample, from the back; Layer::fragment is an index of `planes_`
+  std::vector<BlockDepth> planes_;              // of the pixel's layers
+  std::vector<Layer> sorted_;                   // of a sample, from the back; Layer::fragment is an index of `planes_`
   std::vector<std::uint32_t> bending_, known_;  // indices of `planes_`: refracting layers, from the front
   std::vector<std::uint32_t> fragment_of_;      // by index of `planes_`
 };

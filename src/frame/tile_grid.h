@@ -22,8 +22,8 @@ struct TileRun {
   std::uint32_t begin, end;  // a range of TriangleChunk::entries
 };
 
-// For each tile the runs of all chunks, in chunk order, by alpha mode: opaque, alpha-tested (masked) and blended. Surfaces that are
-// seen through for their transmission are among the blended ones, whatever their alpha mode.
+// For each tile the runs of all chunks, in chunk order, by alpha mode: opaque, alpha-tested (masked) and blended.
+// Surfaces that are seen through for their transmission are among the blended ones, whatever their alpha mode.
 struct TileLists {
   std::vector<std::vector<TileRun>> opaque, masked, blended;
 };

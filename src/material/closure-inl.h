@@ -74,6 +74,8 @@ struct MaterialInputs {
 //   Vec3<T> Prefiltered(Vec3<T> direction, T perceptual_roughness) const;
 //   SpecularAlbedo<T> Dfg(T n_dot_v, T perceptual_roughness) const;
 //   SpecularAlbedo<T> DfgAverage(T perceptual_roughness) const;       // the same, averaged: 2 * integral of mu d mu
+//   SpecularAlbedo<T> AnisotropicDfg(T n_dot_v, T t_dot_v, T perceptual_roughness, T strength) const;
+//   SpecularAlbedo<T> AnisotropicDfgAverage(T perceptual_roughness, T strength) const;
 //   T SheenAlbedo(T n_dot_v, T perceptual_roughness) const;           // may exceed 1
 template <class T, MaterialFeatures kPossible = kAllLobes>
 struct Closure {
@@ -105,7 +107,9 @@ struct Closure {
       diffuse_transmission = DiffuseTransmissionLobe<T>(in.diffuse_transmission, metallic, diffuse);
       if (Has(kTransmission)) diffuse_transmission.color = diffuse_transmission.color * (one - in.transmission.factor);
     }
-    if (Has(kSheen)) sheen = SheenLobe<T>(at, in.sheen, lighting);
+    if constexpr ((kPossible & kSheen) != 0) {
+      if (Has(kSheen)) sheen = SheenLobe<T>(at, in.sheen, lighting);
+    }
     if (Has(kClearcoat)) clearcoat = ClearcoatLobe<T>(in.clearcoat, view, lighting);
     if (Has(kTransmission)) {
       transmission = TransmissionLobe<T>(in.transmission, Has(kVolume), base, metallic, in.perceptual_roughness);
@@ -117,9 +121,11 @@ struct Closure {
 
   HWY_INLINE bool Has(MaterialFeatures lobe) const { return (kPossible & lobe) != 0 && (lobes & lobe) != 0; }
 
-  // The roughness by which the specular lobe's albedo is looked up, for light from (or to) a direction.
-  HWY_INLINE T AlbedoRoughness(const Vec3<T>& direction) const {
-    return Has(kAnisotropy) ? anisotropic.AlbedoRoughness(direction) : microfacets.perceptual_roughness;
+  // The specular lobe's albedo for light from (or to) a direction. `cosine`: its cosine with the normal.
+  template <class Lighting>
+  HWY_INLINE SpecularAlbedo<T> Albedo(const Vec3<T>& direction, T cosine, const Lighting& lighting) const {
+    return Has(kAnisotropy) ? anisotropic.Albedo(direction, cosine, lighting)
+                            : microfacets.Albedo(direction, cosine, lighting);
   }
 
  private:
@@ -130,15 +136,17 @@ struct Closure {
     Interface<T> dielectric{{T(kF0), T(kF0), T(kF0)}, T(1.0f)};
     if (Has(kSpecular | kIor)) dielectric = in.dielectric;
     Vec3<T> metal = base;
-    if (Has(kIridescence)) {
-      const ThinFilm<T> film(in.film, at.n_dot_v);
-      if (Has(kDiffuseLobe)) dielectric.f0 = film.F0Over(dielectric.f0);
-      metal = film.F0Over(metal);
+    if constexpr ((kPossible & kIridescence) != 0) {
+      if (Has(kIridescence)) {
+        const ThinFilm<T> film(in.film, at.n_dot_v);
+        if (Has(kDiffuseLobe)) dielectric.f0 = film.F0Over(dielectric.f0);
+        metal = film.F0Over(metal);
+      }
     }
-    const T average_roughness =
-        Has(kAnisotropy) ? anisotropic.AverageAlbedoRoughness() : microfacets.perceptual_roughness;
+    const SpecularAlbedo<T> average =
+        Has(kAnisotropy) ? anisotropic.AverageAlbedo(lighting) : microfacets.AverageAlbedo(lighting);
     return SpecularLobe<T>(dielectric, metal, metallic, /*is_default=*/!Has(kSpecular | kIor | kIridescence),
-                           lighting.Dfg(at.n_dot_v, AlbedoRoughness(at.view)), lighting.DfgAverage(average_roughness));
+                           Albedo(at.view, at.n_dot_v, lighting), average);
   }
 };
 
@@ -152,16 +160,18 @@ template <class T, MaterialFeatures kPossible, class Lighting>
 HWY_INLINE Vec3<T> EvaluateClosure(const Closure<T, kPossible>& c, Vec3<T> direction, const Lighting& lighting) {
   const T n_dot_l = Dot(c.at.normal, direction);
   const Incidence<T> from = IncidenceFrom(c.at, direction);
-  const SpecularAlbedo<T> light_albedo = lighting.Dfg(from.n_dot_l, c.AlbedoRoughness(direction));
+  const SpecularAlbedo<T> light_albedo = c.Albedo(direction, from.n_dot_l, lighting);
   const T single = c.Has(kAnisotropy) ? c.anisotropic.Single(c.at, direction, from) : c.microfacets.Single(c.at, from);
 
   Vec3<T> brdf = c.specular.Direct(single, from.v_dot_h, light_albedo);
   if (c.Has(kDiffuseLobe)) brdf += c.diffuse.Direct(c.specular, light_albedo);
-  if (c.Has(kSheen)) brdf = brdf * c.sheen.EnergyLeft() + c.sheen.Direct(c.at, from);
+  if constexpr ((kPossible & kSheen) != 0) {
+    if (c.Has(kSheen)) brdf = brdf * c.sheen.EnergyLeft() + c.sheen.Direct(c.at, from);
+  }
   Vec3<T> reflected = Select<T>(n_dot_l > T(0.0f), brdf * from.n_dot_l, Vec3<T>{});
   if (c.Has(kDiffuseTransmission)) {
-    Vec3<T> passed =
-        c.diffuse_transmission.Direct(c.diffuse, c.specular, -n_dot_l, c.AlbedoRoughness(direction), lighting);
+    const auto albedo_at = [&](T cosine) HWY_ATTR { return c.Albedo(direction, cosine, lighting); };
+    Vec3<T> passed = c.diffuse_transmission.Direct(c.diffuse, c.specular, -n_dot_l, albedo_at);
     if (c.Has(kSheen)) passed = passed * c.sheen.EnergyLeft();
     reflected += passed;
   }

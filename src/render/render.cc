@@ -129,7 +129,7 @@ class Renderer::Frames {
     Warn(WhyNothingIsLit(plan, geometry_.material_visible, !lights.empty(), settings), stats);
     if (plan.zero_light) lights.emplace_back().type = LightType::Directional;
     const LightingData all_light = MakeLightingData(lights, environment, settings.environment.rotation,
-                                                    settings.environment.intensity, plan.sheen);
+                                                    settings.environment.intensity, plan.albedo_tables);
     LightingData lighting = all_light;
     if (!plan.environment_light) lighting.environment = nullptr;  // it may still be the background
     const EnvironmentBackground background =

@@ -98,8 +98,8 @@ class TileWorker {
     }
     const ThroughView view{in_.view.view.perspective, static_cast<float>(std::fabs(in_.view.view.screen_y.y)),
                            in_.background.IsEnvironment()};
-    through_.Run(view, visibility_.Buffers(), opaque_, blended_, visibility_.Records().All(), *in_.backdrop, background_,
-                 pixels_, environment_seen_);
+    through_.Run(view, visibility_.Buffers(), opaque_, blended_, visibility_.Records().All(), *in_.backdrop,
+                 background_, pixels_, environment_seen_);
     in_.background.AddSeen(environment_seen_, pixels_);
   }
 

@@ -21,8 +21,8 @@ struct AttributeLayout {
 
   // The size of a setup, in floats, for a material that reads this many UV sets: a multiple of 16 bytes.
   static constexpr int Stride(int uv_slots) { return (kTexCoords + 6 * uv_slots + 3) / 4 * 4; }
-  // The last float, which no UV set takes: metres per unit of the mesh for fragments behind which a volume begins, which
-  // are those of front faces, otherwise 0. Only of materials with a volume.
+  // The last float, which no UV set takes: metres per unit of the mesh for fragments behind which a volume begins,
+  // which are those of front faces, otherwise 0. Only of materials with a volume.
   static constexpr int MetresPerUnit(int uv_slots) { return Stride(uv_slots) - 1; }
   static constexpr int kMostStride = (kTexCoords + 6 * kMaxUvSlots + 3) / 4 * 4;
 };

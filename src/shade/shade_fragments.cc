@@ -28,10 +28,10 @@ namespace HWY_NAMESPACE {
 FACET_SHADING_MODELS(FACET_MODEL_KERNEL)
 #undef FACET_MODEL_KERNEL
 
-#define FACET_MODEL_KERNEL(Name)                                    \
-  void SeenThrough##Name##Kernel(const ShadeTask& task) {           \
-    Surface<Float> surfaces[2];                                     \
-    ShadePackets(task, ModelSeenThrough<Name>{task}, surfaces);     \
+#define FACET_MODEL_KERNEL(Name)                                \
+  void SeenThrough##Name##Kernel(const ShadeTask& task) {       \
+    Surface<Float> surfaces[2];                                 \
+    ShadePackets(task, ModelSeenThrough<Name>{task}, surfaces); \
   }
 FACET_MODELS_SEEN_THROUGH(FACET_MODEL_KERNEL)
 #undef FACET_MODEL_KERNEL

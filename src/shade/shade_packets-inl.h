@@ -7,6 +7,8 @@
 #define FACET_SHADE_SHADE_PACKETS_INL_H_
 #endif
 
+#include <type_traits>
+
 #include "light/lighting-inl.h"
 #include "material/models/seen_through-inl.h"
 #include "shade/interpolate-inl.h"
@@ -18,9 +20,13 @@ namespace HWY_NAMESPACE {
 
 // What a functor returns, as colour and alpha.
 template <class T>
-HWY_INLINE const Shaded<T>& OwnOf(const Shaded<T>& shaded) { return shaded; }
+HWY_INLINE const Shaded<T>& OwnOf(const Shaded<T>& shaded) {
+  return shaded;
+}
 template <class T>
-HWY_INLINE const Shaded<T>& OwnOf(const ShadedThrough<T>& shaded) { return shaded.own; }
+HWY_INLINE const Shaded<T>& OwnOf(const ShadedThrough<T>& shaded) {
+  return shaded.own;
+}
 
 // The other results of fragments i and after. Those that are not finite let nothing pass.
 template <class T>
@@ -88,6 +94,18 @@ struct ModelSeenThrough {
   }
 };
 
+// Calls a functor; those of surfaces that are seen through are told the fragment's index as well.
+template <class Shader>
+HWY_INLINE auto ShadeAt(const Shader& shader, const Surface<Float>& surface, const MaterialView<Float>& material,
+                        const LightingView<Float>& lighting, std::size_t i) {
+  if constexpr (std::is_invocable_v<const Shader&, const Surface<Float>&, const MaterialView<Float>&,
+                                    const LightingView<Float>&, std::size_t>) {
+    return shader(surface, material, lighting, i);
+  } else {
+    return shader(surface, material, lighting);
+  }
+}
+
 // Shades all fragments of a task. The texels of the next packet are prefetched before the current one is shaded, which
 // hides the latency of memory. Lanes beyond the end of the batch shade the caller's padding; their results are unused.
 // `surfaces`: for the current packet and the next one. Texture coordinates that the material does not read keep the
@@ -106,14 +124,7 @@ HWY_INLINE void ShadePackets(const ShadeTask& task, const Shader& shader, Surfac
   for (std::size_t i = 0; i < task.count; i += lanes, buffer = 1 - buffer) {
     if (i + lanes < task.count) prepare(i + lanes, 1 - buffer);
     const MaterialView<Float> material(*task.material, &readers[buffer]);
-    const auto result = [&]() HWY_ATTR {
-      if constexpr (std::is_invocable_v<Shader, Surface<Float>&, const MaterialView<Float>&, const LightingView<Float>&,
-                                        std::size_t>) {
-        return shader(surfaces[buffer], material, lighting, i);
-      } else {
-        return shader(surfaces[buffer], material, lighting);
-      }
-    }();
+    const auto result = ShadeAt(shader, surfaces[buffer], material, lighting, i);
     StoreSeenThrough(task, surfaces[buffer], i, result);
     const Shaded<Float>& shaded = OwnOf(result);
     const Vec3<Float> c = shaded.color;

@@ -44,7 +44,7 @@ struct ShadeTask {
   const SeenThroughOutputs* seen_through = nullptr;  // for FrameMaterial::is_seen_through, else null
   // Homogeneous screen space (FrameView) from vectors in world axes, without offsets; read with `seen_through`.
   float screen_from_eye[3][3] = {};
-  float pixels_per_tangent = 0.0f;  // pixels by which a tangent of 1 shifts: see SeenThroughOutputs::blur
+  float pixels_per_tangent = 0.0f;      // pixels by which a tangent of 1 shifts: see SeenThroughOutputs::blur
   std::uint64_t* non_finite = nullptr;  // incremented for each fragment that is replaced by black
 };
 

@@ -103,7 +103,7 @@ std::vector<float> RandomSheen(int count) {
 
 TEST(LaneSheen, HasTheBitsOfFloatsOnEveryInstructionSet) {
   const auto studio = StudioEnvironment();
-  const LightingData lighting = MakeLightingData({}, studio.get(), 1.0, 1.5, true);
+  const LightingData lighting = MakeLightingData({}, studio.get(), 1.0, 1.5, {.sheen = true});
   constexpr int kCount = 4096;
   const std::vector<float> in = RandomSheen(kCount);
   std::vector<float> expected(kSheenOutputs * kCount), out(kSheenOutputs * kCount);

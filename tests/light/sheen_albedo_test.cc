@@ -148,7 +148,7 @@ TEST(SheenAlbedo, SameBitsOnEveryInstructionSet) {
 
 TEST(SheenAlbedo, LightingHasTheTableOnlyIfAsked) {
   EXPECT_EQ(MakeLightingData({}, nullptr).sheen, nullptr);
-  const LightingData data = MakeLightingData({}, nullptr, 0.0, 1.0, true);
+  const LightingData data = MakeLightingData({}, nullptr, 0.0, 1.0, {.sheen = true});
   ASSERT_EQ(data.sheen, &SharedSheenTable());
   EXPECT_EQ(lanes::LightingView<double>(data).SheenAlbedo(0.2, 0.4), lanes::LookupSheen(*data.sheen, 0.2, 0.4));
 }

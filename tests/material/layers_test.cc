@@ -91,7 +91,7 @@ std::vector<Layer> Layers() {
 }
 
 const LightingData& NoLighting() {
-  static const LightingData data = MakeLightingData({}, nullptr, 0.0, 1.0, /*sheen=*/true);
+  static const LightingData data = MakeLightingData({}, nullptr, 0.0, 1.0, {.sheen = true, .anisotropic_dfg = true});
   return data;
 }
 
@@ -168,7 +168,7 @@ TEST(LayersInWhiteFurnace, DirectionalLightsOfEveryDirection) {
 
 TEST(LayersInWhiteFurnace, ConstantEnvironment) {
   const auto environment = PrefilterEnvironment(ConstantImage(1.0f));
-  const LightingData data = MakeLightingData({}, environment.get(), 0.7, 3.0, /*sheen=*/true);
+  const LightingData data = MakeLightingData({}, environment.get(), 0.7, 3.0, {.sheen = true});
   const LightingView<double> lighting(data);
   for (const Layer& layer : Layers()) {
     for (const double roughness : Roughnesses()) {

@@ -49,7 +49,7 @@ Vec3<T> Direction(T n_dot_l, T azimuth) {
 }
 
 LightingData WithSheen(const EnvironmentMap* environment = nullptr) {
-  return MakeLightingData({}, environment, 0.0, 1.0, true);
+  return MakeLightingData({}, environment, 0.0, 1.0, {.sheen = true});
 }
 
 // The integral of the lobe's BRDF times n_dot_l over the hemisphere.

@@ -51,7 +51,7 @@ struct SpecularLobe {
     const T dielectric = T(1.0f) - metallic;
     f0 = {base.f0.x * dielectric + metal.x * metallic, base.f0.y * dielectric + metal.y * metallic,
           base.f0.z * dielectric + metal.z * metallic};
-    f90 = is_default ? T(1.0f) : T(1.0f) - dielectric * (T(1.0f) - base.f90);
+    f90 = is_default ? T(1.0f) : base.f90 * dielectric + metallic;
     dielectric_f0 = is_default ? base.f0.x : MaxComponent(base.f0);
     dielectric_f90 = base.f90;
     dielectric_multiple_fresnel = MultipleScatteringFresnel(dielectric_f0, e_avg, base.f90);

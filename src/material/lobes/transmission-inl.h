@@ -35,9 +35,9 @@ struct TransmissionInputs {
 
 template <class T>
 struct TransmissionLobe {
-  Vec3<T> color;             // of the light that passes: without what the interface and layers above it reflect
+  Vec3<T> color;               // of the light that passes: without what the interface and layers above it reflect
   Microfacets<T> microfacets;  // of the mirrored reflection
-  T unclamped_alpha{};       // GGX's width of the same: 0 for a smooth surface
+  T unclamped_alpha{};         // GGX's width of the same: 0 for a smooth surface
 
   HWY_INLINE TransmissionLobe() {}  // for a lobe that a material does not have
 
@@ -48,8 +48,7 @@ struct TransmissionLobe {
     color = base * (Clamp(in.factor, zero, one) * (one - metallic));
     if (has_volume) color = color * Passing(in.absorption, in.thickness);
     const T bounded = Clamp(roughness, zero, one);
-    unclamped_alpha =
-        AlphaFromPerceptualRoughness(bounded) * Clamp(T(2.0f) * in.ior.y - T(2.0f), zero, one);
+    unclamped_alpha = AlphaFromPerceptualRoughness(bounded) * Clamp(T(2.0f) * in.ior.y - T(2.0f), zero, one);
     microfacets = Microfacets<T>(Sqrt(unclamped_alpha));
   }
 
@@ -75,8 +74,9 @@ struct TransmissionLobe {
   }
 
   // The standard deviation of the tangent of the angle by which the lobe spreads light. GGX has none, because of its
-  // tails, so it is that of the Gauss lobe with the same median: half of the facets are tilted by less than atan(alpha),
-  // and deviate light by twice that. Where they are very rough, half of the light deviates by less than 45 degrees.
+  // tails, so it is that of the Gauss lobe with the same median: half of the facets are tilted by less than
+  // atan(alpha), and deviate light by twice that. Where they are very rough, half of the light deviates by less than 45
+  // degrees.
   //
   // That is the mirrored reflection of a thin wall. The facets of a volume refract: they deviate light by ior - 1 times
   // their tilt instead of twice.

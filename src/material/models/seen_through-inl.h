@@ -18,11 +18,11 @@ namespace HWY_NAMESPACE {
 template <class T>
 struct ShadedThrough {
   Shaded<T> own;
-  Vec3<T> tint;     // of what is seen through the surface
+  Vec3<T> tint;  // of what is seen through the surface
   // From where the view enters the medium to where it leaves it, by channel: metres, world axes. Zero for thin walls.
   // Without dispersion all are the first.
   Vec3<T> path[3];
-  T spread{};       // TransmissionLobe::Spread()
+  T spread{};  // TransmissionLobe::Spread()
 };
 
 // `metres_per_unit`: of the mesh, in which thickness is stated; 0: no medium begins here.
