@@ -23,8 +23,9 @@ int main(int argc, char** argv) {
       Glb (*make)();
     };
     for (const Entry& entry :
-         {Entry{"material_grid.glb", facet::assets::MaterialGrid}, Entry{"showcase.glb", facet::assets::Showcase},
-          Entry{"room.glb", facet::assets::Room}, Entry{"animated.glb", facet::assets::Animated}}) {
+         {Entry{"material_grid.glb", facet::assets::MaterialGrid}, Entry{"materials.glb", facet::assets::Materials},
+          Entry{"showcase.glb", facet::assets::Showcase}, Entry{"room.glb", facet::assets::Room},
+          Entry{"animated.glb", facet::assets::Animated}, Entry{"gallery.glb", facet::assets::Gallery}}) {
       entry.make().Write(folder / entry.name);
     }
     facet::assets::WriteStudio(std::filesystem::path(argv[1]) / "studio.hdr");

@@ -119,11 +119,15 @@ Json Glb::MakePrimitive(const Shape& shape, int material) {
     for (const Vec2& uv : shape.uvs) flat.insert(flat.end(), {float(uv.x), float(uv.y)});
     attributes["TEXCOORD_0"] = AddFloats(flat, 2, false, kArrayBuffer);
   }
+  const auto four_numbers = [&](const std::vector<std::array<float, 4>>& values) {
+    std::vector<float> flat;
+    for (const auto& value : values) flat.insert(flat.end(), value.begin(), value.end());
+    return AddFloats(flat, 4, false, kArrayBuffer);
+  };
+  if (!shape.tangents.empty()) attributes["TANGENT"] = four_numbers(shape.tangents);
   if (!shape.joints.empty()) {
     attributes["JOINTS_0"] = AddJoints(shape.joints);
-    std::vector<float> flat;
-    for (const auto& weights : shape.weights) flat.insert(flat.end(), weights.begin(), weights.end());
-    attributes["WEIGHTS_0"] = AddFloats(flat, 4, false, kArrayBuffer);
+    attributes["WEIGHTS_0"] = four_numbers(shape.weights);
   }
   return {{"attributes", attributes}, {"indices", AddIndices(shape.indices)}, {"material", material}};
 }

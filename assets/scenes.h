@@ -7,6 +7,8 @@ namespace facet::assets {
 
 Glb MaterialGrid();  // spheres over roughness (x) and metalness (y)
 Glb Showcase();      // a still life: textures, normal maps, occlusion, emission, cutouts, glass
+Glb Materials();     // a row of spheres for each parameter of the material extensions
+Glb Gallery();       // a showpiece of the material extensions: glass, lacquer, velvet, paper, soap, spun steel
 Glb Room();          // a box with a point, a spot and a directional light
 Glb Animated();      // a skinned tentacle, a morphing blob, a hopping cube
 

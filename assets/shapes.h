@@ -29,6 +29,7 @@ Vec3 Normalize(Vec3 a);  // zero stays zero
 struct Shape {
   std::vector<Vec3> positions, normals;
   std::vector<Vec2> uvs;
+  std::vector<std::array<float, 4>> tangents;       // empty, or one per position: along +u, and handedness
   std::vector<std::array<std::uint8_t, 4>> joints;  // empty, or one per position
   std::vector<std::array<float, 4>> weights;
   std::vector<std::uint32_t> indices;

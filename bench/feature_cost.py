@@ -22,37 +22,51 @@ import tempfile
 import harness
 from harness import Failure
 
-HAS = "src/plan/frame_material.h"
-TILE, POSE, LIGHTING = "src/render/tile_pass.cc", "src/scene/pose.cc", "src/light/lighting-inl.h"
+TILE, VISIBILITY = "src/render/tile_pass.cc", "src/render/tile_visibility.cc"
+POSE, LIGHTING = "src/scene/pose.cc", "src/light/lighting-inl.h"
 
 
-def never(bit):
-    """A material's feature, by its number in src/material/features.h, that no material has."""
-    return [(HAS, r"\(features & feature\) != 0", f"(features & feature & ~(1u << {bit})) != 0")]
+def never(bits):
+    """A material's features, as an expression of src/material/slots.h, that no material has."""
+    return [("src/plan/frame_material.h", r"\(features & feature\) != 0", f"(features & feature & ~({bits})) != 0"),
+            ("src/material/closure-inl.h", r"return \(kPossible & lobe\)", f"return (kPossible & lobe & ~({bits}))"),
+            ("src/material/read-inl.h", r"return \(kPossible & lobe\)", f"return (kPossible & lobe & ~({bits}))")]
 
 
 # What compiles a feature out: (file, pattern, what takes its place). A pattern that no longer matches is an error.
 WITHOUT = {
-    "base colour texture": never(0),
-    "metallic-roughness texture": never(1),
-    "normal texture": never(2),
-    "occlusion texture": never(3),
-    "emissive texture": never(4),
-    "emission": never(5),
-    "lighting": never(6),
+    "base colour texture": never("BitOf(Slot::BaseColor)"),
+    "metallic-roughness texture": never("BitOf(Slot::MetallicRoughness)"),
+    "normal texture": never("BitOf(Slot::Normal)"),
+    "occlusion texture": never("BitOf(Slot::Occlusion)"),
+    "emissive texture": never("BitOf(Slot::Emissive)"),
+    "emission": never("kEmission"),
+    "lighting": never("kLit"),
     "vertex colours": [("src/shade/interpolate-inl.h", r"if \(material\.vertex_colors\)", "if (false)"),
                        ("src/shade/attribute_setup.cc", r"if \(material\.vertex_colors\)", "if (false)")],
     "skinning": [(POSE, r"if \((settings\.skins && )?node\.skin >= 0", "if (false && node.skin >= 0")],
     "morph targets": [(POSE, r"shape\.morphed = [^;]*;", "shape.morphed = false;")],
-    "alpha test": [(TILE, r"if \(!lists\.masked\[t\]\.empty\(\)\) DrawMasked", "if (false) DrawMasked")],
-    "blending": [(TILE, r"if \(!lists\.blended\[t\]\.empty\(\)\)", "if (false)")],
+    "alpha test": [(VISIBILITY, r"if \(!lists\.masked\[list_\]\.empty\(\)\) DrawMasked", "if (false) DrawMasked")],
+    "blending": [(TILE, r"if \(visibility_\.HasBlended\(\)\)", "if (false)")],
     "punctual lights": [(LIGHTING, r"return data_->light_count;", "return 0;")],
     "directional lights": [(LIGHTING, r"if \(light\.type == LightType::Directional\)", "if (false)")],
     "spot lights": [(LIGHTING, r"if \(light\.type == LightType::Spot\)", "if (false)")],
     "environment": [(LIGHTING, r"return data_->environment != nullptr;", "return false;")],
-    "background": [(TILE, r"const bool background = [^;]*;", "constexpr bool background = false;")],
+    "background": [("src/render/environment_background.cc", r"if \(lighting_ == nullptr\) return;", "if (true) return;")],
     "4 samples": [("src/frame/tile.h", r"int tile_size = 0, samples = 0;",
-                   "int tile_size = 0; static constexpr int samples = 1;"), (TILE, r"tile_\.samples = [^;]*;", "")],
+                   "int tile_size = 0; static constexpr int samples = 1;"),
+                  (VISIBILITY, r"tile_\.samples = [^;]*;", "")],
+    "clear coat": never("kClearcoat"),
+    "sheen": never("kSheen"),
+    "specular factors": never("kSpecular"),
+    "index of refraction": never("kIor"),
+    "transmission": never("kTransmission"),
+    "volume": never("kVolume"),
+    "dispersion": never("kDispersion"),
+    "diffuse transmission": never("kDiffuseTransmission"),
+    "iridescence": never("kIridescence"),
+    "anisotropy": never("kAnisotropy"),
+    "material extensions": never("kLayerFeatures"),
 }
 
 

@@ -41,7 +41,7 @@ std::vector<Subject> Subjects() {
       }
     }
   }
-  for (const char* name : {"showcase", "material_grid", "room", "animated"}) {
+  for (const char* name : {"showcase", "gallery", "material_grid", "materials", "room", "animated"}) {
     subjects.push_back({name, root / "assets/scenes" / (std::string(name) + ".glb")});
   }
   return subjects;

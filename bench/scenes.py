@@ -221,6 +221,26 @@ def everything_but(*without):
     rich = glb.add("materials", {**material, "pbrMetallicRoughness": model})
     plain = glb.add("materials", {"pbrMetallicRoughness": {"baseColorFactor": [0.8, 0.6, 0.4, 0.5]}, **kind})
 
+    # Extensions stand on a material of their own: with none of them it has the kernel of core glTF.
+    extensions = {
+        "clear coat": ("clearcoat", {"clearcoatFactor": 0.8, "clearcoatRoughnessFactor": 0.1}),
+        "sheen": ("sheen", {"sheenColorFactor": [0.3, 0.2, 0.1], "sheenRoughnessFactor": 0.4}),
+        "specular factors": ("specular", {"specularFactor": 0.7, "specularColorFactor": [1, 0.8, 0.6]}),
+        "index of refraction": ("ior", {"ior": 1.4}),
+        "transmission": ("transmission", {"transmissionFactor": 0.4}),
+        "volume": ("volume", {"thicknessFactor": 0.1, "attenuationDistance": 0.5, "attenuationColor": [0.8, 0.9, 1]}),
+        "dispersion": ("dispersion", {"dispersion": 2.0}),
+        "diffuse transmission": ("diffuse_transmission", {"diffuseTransmissionFactor": 0.3}),
+        "iridescence": ("iridescence", {"iridescenceFactor": 0.6}),
+        "anisotropy": ("anisotropy", {"anisotropyStrength": 0.5}),
+    }
+    stated = {} if not has("lighting") or not has("material extensions") else {
+        f"KHR_materials_{name}": values for feature, (name, values) in extensions.items() if has(feature)}
+    for name in stated:
+        glb.extension(name, {})
+    layered = glb.add("materials", {"extensions": stated or kind.get("extensions", {}), "pbrMetallicRoughness": {
+        "metallicFactor": 0.2, "roughnessFactor": 0.4}})
+
     def place(column, shape_material, row=0, z=0.0, color=False, **mesh):
         shape = patch(16, x=(2.2 * column - 1, 2.2 * column + 1), y=(2.2 * row - 1, 2.2 * row + 1), z=z)
         if color:
@@ -231,6 +251,7 @@ def everything_but(*without):
 
     glb.node(mesh=place(-1, rich)[0])
     glb.node(mesh=place(0, plain, color=has("vertex colours"))[0])
+    glb.node(mesh=place(1, layered, row=1)[0])
     if has("alpha test"):
         glb.node(mesh=place(1, glb.add("materials", {"alphaMode": "MASK", "pbrMetallicRoughness": model, **kind}))[0])
     if has("blending"):

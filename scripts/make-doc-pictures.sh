@@ -42,6 +42,12 @@ render showcase "$work/showcase.png" --camera "still life" --size 1280x960 --sam
   --background "#22262c" --exposure -0.3
 side_by_side "$out/showcase.jpg" 640 "$work/showcase.png"
 
+render gallery "$work/gallery.png" --camera gallery --size 1280x960 --samples 8
+side_by_side "$out/gallery.jpg" 960 "$work/gallery.png"
+
+render materials "$work/materials.png" --camera front --size 1920x1440 --samples 8
+side_by_side "$out/materials.jpg" 1280 "$work/materials.png"
+
 render material_grid "$work/grid.png" --camera front --size 720x720 --samples 8 --background white
 side_by_side "$out/material_grid.jpg" 480 "$work/grid.png"
 

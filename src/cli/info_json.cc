@@ -2,10 +2,15 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
 
 #include "cli/camera_text.h"
 #include "cli/info_summary.h"
 #include "material/models/models.h"
+#include "material/parameters.h"
 
 namespace facet::cli {
 namespace {
@@ -20,6 +25,21 @@ Json Array(const Vector& vector) {
   Json array = Json::array();
   for (int i = 0; i < Vector::length(); ++i) array.push_back(Finite(static_cast<double>(vector[i])));
   return array;
+}
+
+Json Number(float value) { return value; }
+template <glm::length_t kLength>
+Json Number(const glm::vec<kLength, float>& color) {
+  return Array(color);
+}
+
+// The name of the texture that a parameter belongs to, "normalTexture" or that in "EXTENSION.clearcoatNormalTexture";
+// empty: none. `group`: as in Parameter.
+constexpr std::string_view kTexture = "Texture";
+std::string_view TextureOf(const char* group) {
+  std::string_view name = group != nullptr ? group : "";
+  name.remove_prefix(name.find('.') + 1);  // npos + 1 is 0
+  return name.ends_with(kTexture) ? name : std::string_view();
 }
 
 Json ToJson(const Geometry& geometry) {
@@ -49,6 +69,40 @@ Json ToJson(const MeshSummary& mesh) {
   return json;
 }
 
+// The key of a number or colour: its name in glTF, "metallicFactor", as "metallic_factor". What belongs to a texture
+// has the texture's name before its own: "scale" of "clearcoatNormalTexture" is "clearcoat_normal_scale".
+template <class Value>
+std::string KeyOf(const Parameter<Value>& parameter) {
+  if (parameter.key != nullptr) return parameter.key;
+  std::string name = parameter.gltf_name;
+  if (const std::string_view texture = TextureOf(parameter.gltf_group); !texture.empty()) {
+    name = std::string(texture.substr(0, texture.size() - kTexture.size())) + "_" + name;
+  }
+  std::string key;
+  for (const char c : name) {
+    const bool is_capital = c >= 'A' && c <= 'Z';
+    if (is_capital) key += '_';
+    key += is_capital ? static_cast<char>(c - 'A' + 'a') : c;
+  }
+  return key;
+}
+
+// Factors of core glTF and the emissive strength always, other numbers where they are not the defaults.
+void AddNumbers(const Material& material, Json& json) {
+  const Material plain;
+  int row = 0;
+  ForEachParameter([&]<class Value>(const Parameter<Value>& parameter) {
+    const bool is_core = row++ < kCoreParameters;
+    if constexpr (std::is_same_v<Value, float> || std::is_same_v<Value, glm::vec3> ||
+                  std::is_same_v<Value, glm::vec4>) {
+      if (parameter.alternative) return;
+      const Value& value = material.*parameter.member;
+      const bool is_always_there = is_core && TextureOf(parameter.gltf_group).empty();
+      if (is_always_there || value != plain.*parameter.member) json[KeyOf(parameter)] = Number(value);
+    }
+  });
+}
+
 Json ToJson(const MaterialSummary& summary) {
   const Material& material = *summary.material;
   Json textures = Json::object();
@@ -56,19 +110,16 @@ Json ToJson(const MaterialSummary& summary) {
     textures[use.slot] = {
         {"texture", use.ref.texture}, {"tex_coord", use.ref.tex_coord}, {"transformed", use.transformed}};
   }
-  return {{"name", material.name},
-          {"alpha_mode", NameOf(material.alpha_mode)},
-          {"alpha_cutoff", material.alpha_cutoff},
-          {"double_sided", material.double_sided},
-          {"model", InfoOf(material.model).word},
-          {"unlit", material.model == ShadingModel::Unlit},
-          {"base_color_factor", Array(material.base_color_factor)},
-          {"metallic_factor", material.metallic_factor},
-          {"roughness_factor", material.roughness_factor},
-          {"emissive_factor", Array(material.emissive_factor)},
-          {"emissive_strength", material.emissive_strength},
-          {"textures", textures},
-          {"primitives", summary.primitives}};
+  Json json = {{"name", material.name},
+               {"alpha_mode", NameOf(material.alpha_mode)},
+               {"alpha_cutoff", material.alpha_cutoff},
+               {"double_sided", material.double_sided},
+               {"model", InfoOf(material.model).word},
+               {"unlit", material.model == ShadingModel::Unlit}};
+  AddNumbers(material, json);
+  json["textures"] = std::move(textures);
+  json["primitives"] = summary.primitives;
+  return json;
 }
 
 Json ToJson(const ImageSummary& image) {

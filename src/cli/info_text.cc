@@ -86,6 +86,10 @@ std::string Describe(const TextureUse& use) {
   return text;
 }
 
+// Each with a blank before it.
+std::string Numbers(float value) { return Format(" %g", static_cast<double>(value)); }
+std::string Numbers(const glm::vec3& color) { return Numbers(color.x) + Numbers(color.y) + Numbers(color.z); }
+
 std::string Describe(const MaterialSummary& summary) {
   const Material& material = *summary.material;
   std::vector<std::string> parts;
@@ -101,12 +105,13 @@ std::string Describe(const MaterialSummary& summary) {
     parts.push_back(Format("metallic %g", static_cast<double>(material.metallic_factor)));
     parts.push_back(Format("roughness %g", static_cast<double>(material.roughness_factor)));
   }
+  const Material plain;
   ForEachParameter([&]<class Value>(const Parameter<Value>& parameter) {
-    if constexpr (std::is_same_v<Value, float>) {
-      const float value = material.*parameter.member;
+    if constexpr (std::is_same_v<Value, float> || std::is_same_v<Value, glm::vec3>) {
+      const Value value = material.*parameter.member;
       const bool is_extension = parameter.gltf_group != nullptr && IsExtension(parameter.gltf_group);
-      if (!is_extension || value == Material().*parameter.member) return;
-      parts.push_back(Format("%s %g", parameter.name, static_cast<double>(value)));
+      if (!is_extension || parameter.alternative || value == plain.*parameter.member) return;
+      parts.push_back(parameter.name + Numbers(value));
     }
   });
   std::string text = Join(parts);

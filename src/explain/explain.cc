@@ -123,7 +123,7 @@ std::vector<Ablation> Ablations(const RenderSettings& settings, const FramePlan&
   if (!plan.planes.empty()) add("planes", "--planes none").planes.clear();
   if (settings.samples > 1) add("multisampling", "--samples 1").samples = 1;
   if (settings.max_anisotropy > 1 && !plan.textures.empty()) {
-    add("anisotropy", "--max-anisotropy 1").max_anisotropy = 1;
+    add("anisotropic-filtering", "--max-anisotropy 1").max_anisotropy = 1;
   }
   return ablations;
 }

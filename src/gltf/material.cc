@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "base/number_text.h"
 #include "material/models/models.h"
 #include "material/parameters.h"
 #include "math/round_to_float.h"
@@ -49,25 +50,32 @@ class MaterialReader {
   }
   Place PlaceOf(std::string_view group) const { return {IsExtension(group) ? extensions_place_ : place_, group}; }
 
-  // Clamps to the range, with a warning.
-  static float Clamp(double value, ParameterRange range, const Place& where) {
+  // The nearest number of the range, with a warning if it is another one.
+  static float WithinRange(double value, ParameterRange range, const char* name, const Place& where) {
     if (value == double{range.exception}) return static_cast<float>(value);
-    const double clamped = std::min(std::max(value, double{range.low}), double{range.high});
-    if (clamped != value) where.Warn("a number outside of its range was clamped");
-    return RoundToFiniteFloat(clamped);
+    const bool is_exception = range.less_is_exception && value < double{range.low};
+    const double within =
+        is_exception ? double{range.exception} : std::min(std::max(value, double{range.low}), double{range.high});
+    if (within != value) {
+      const std::string used = ShortNumber(within), read = ShortNumber(value);
+      const std::string exact = read == used ? ShortNumber(value, 17) : read;
+      where.Warn(std::string(name) + " " + exact + " is out of range; " + used + " is used");
+    }
+    return is_exception ? range.exception : RoundToFiniteFloat(within);
   }
 
   void ReadValue(const Json& object, const Place& place, const Parameter<float>& parameter, float& out) const {
     const auto value = LenientNumber(object, parameter.gltf_name, place);
-    if (value) out = Clamp(*value, parameter.range, Place(place, parameter.gltf_name));
+    if (value) out = WithinRange(*value, parameter.range, parameter.name, Place(place, parameter.gltf_name));
   }
   template <int kLength>
   void ReadValue(const Json& object, const Place& place, const Parameter<glm::vec<kLength, float>>& parameter,
                  glm::vec<kLength, float>& out) const {
     // Colours with alpha are often written without it.
     const auto values = LenientNumbers(object, parameter.gltf_name, kLength, place, kLength == 4 ? 3 : kLength);
+    const Place array_place(place, parameter.gltf_name);
     for (std::size_t c = 0; c < values.size(); ++c) {
-      out[static_cast<int>(c)] = Clamp(values[c], parameter.range, Place(place, parameter.gltf_name));
+      out[static_cast<int>(c)] = WithinRange(values[c], parameter.range, parameter.name, Place(array_place, c));
     }
   }
   void ReadValue(const Json& object, const Place& place, const Parameter<bool>& parameter, bool& out) const {

@@ -67,6 +67,77 @@ HWY_INLINE SpecularAlbedo<T> LookupDfgAverage(const DfgTable& table, T perceptua
   return {Mix(p.x, p.z, row.fraction), Mix(p.y, p.w, row.fraction)};
 }
 
+// The row of an AnisotropicDfgTable, and the layer within it.
+template <class T>
+HWY_INLINE TablePosition<T> AnisotropicDfgRow(T perceptual_roughness) {
+  using Table = AnisotropicDfgTable;
+  const T root = Sqrt(Max(perceptual_roughness, T(0.0f)));
+  return PositionInTable((root - T(Table::kFirstRow)) * T((Table::kRows - 1) / (1.0f - Table::kFirstRow)),
+                         static_cast<float>(Table::kRows - 1));
+}
+template <class T>
+HWY_INLINE TablePosition<T> AnisotropicDfgLayer(T strength) {
+  const float last = static_cast<float>(AnisotropicDfgTable::kLayers - 1);
+  return PositionInTable(strength * T(last), last);
+}
+
+// `t_dot_v`: the cosine with the tangent, of either sign.
+template <class T>
+HWY_NOINLINE SpecularAlbedo<T> LookupAnisotropicDfg(const AnisotropicDfgTable& table, T n_dot_v, T t_dot_v,
+                                                    T perceptual_roughness, T strength) {
+  using Table = AnisotropicDfgTable;
+  const auto position = [](T share, int count) HWY_ATTR {
+    return PositionInTable(share * T(static_cast<float>(count - 1)), static_cast<float>(count - 1));
+  };
+  const TablePosition<T> row = AnisotropicDfgRow(perceptual_roughness), layer = AnisotropicDfgLayer(strength);
+  const T n = Clamp(n_dot_v, T(0.0f), T(1.0f)), u = Sqrt(Sqrt(n));
+  const T y = Sqrt(Sqrt(Sqrt(n * n + t_dot_v * t_dot_v)));
+  // Seen from the front, a surface looks the same from all azimuths.
+  const TablePosition<T> turn = position((y - u) / Max(T(1.0f) - u, T(1e-6f)), Table::kTurns);
+  const TablePosition<T> column = position(u, Table::kColumns);
+  const IntOf<T> sample = (row.index * IntOf<T>(Table::kLayers) + layer.index) * IntOf<T>(Table::kTurns) + turn.index;
+  const IntOf<T> index = (sample * IntOf<T>(Table::kColumns) + column.index) * IntOf<T>(2);
+  // Over columns and turns. Offsets are in samples of A and B.
+  const auto of_layer = [&](int offset) HWY_ATTR -> SpecularAlbedo<T> {
+    const float* first = table.albedo + 2 * offset;
+    const Vec4<T> p = FetchVec4<T>(first, index), q = FetchVec4<T>(first + 2 * Table::kColumns, index);
+    return {Mix(Mix(p.x, p.z, column.fraction), Mix(q.x, q.z, column.fraction), turn.fraction),
+            Mix(Mix(p.y, p.w, column.fraction), Mix(q.y, q.w, column.fraction), turn.fraction)};
+  };
+  const auto of_row = [&](int offset) HWY_ATTR -> SpecularAlbedo<T> {
+    const SpecularAlbedo<T> p = of_layer(offset), q = of_layer(offset + Table::kTurns * Table::kColumns);
+    return {Mix(p.a, q.a, layer.fraction), Mix(p.b, q.b, layer.fraction)};
+  };
+  const SpecularAlbedo<T> p = of_row(0), q = of_row(Table::kLayers * Table::kTurns * Table::kColumns);
+  return {Mix(p.a, q.a, row.fraction), Mix(p.b, q.b, row.fraction)};
+}
+
+template <class T>
+HWY_INLINE SpecularAlbedo<T> LookupAnisotropicDfgAverage(const AnisotropicDfgTable& table, T perceptual_roughness,
+                                                         T strength) {
+  const TablePosition<T> row = AnisotropicDfgRow(perceptual_roughness), layer = AnisotropicDfgLayer(strength);
+  const IntOf<T> index = (row.index * IntOf<T>(AnisotropicDfgTable::kLayers) + layer.index) * IntOf<T>(2);
+  // A and B of this layer and the next, in this row and the next.
+  const Vec4<T> p = FetchVec4<T>(table.average, index);
+  const Vec4<T> q = FetchVec4<T>(table.average + 2 * AnisotropicDfgTable::kLayers, index);
+  return {Mix(Mix(p.x, p.z, layer.fraction), Mix(q.x, q.z, layer.fraction), row.fraction),
+          Mix(Mix(p.y, p.w, layer.fraction), Mix(q.y, q.w, layer.fraction), row.fraction)};
+}
+
+// E of sheen, which may exceed 1.
+template <class T>
+HWY_INLINE T LookupSheen(const SheenTable& table, T n_dot_v, T perceptual_roughness) {
+  const auto position = [](T x, float first, int count) HWY_ATTR {
+    const float last = static_cast<float>(count - 1);
+    return PositionInTable((Sqrt(Sqrt(Max(x, T(0.0f)))) - T(first)) * T(last / (1.0f - first)), last);
+  };
+  const TablePosition<T> column = position(n_dot_v, SheenTable::kFirstColumn, SheenTable::kColumns);
+  const TablePosition<T> row = position(perceptual_roughness, SheenTable::kFirstRow, SheenTable::kRows);
+  const IntOf<T> index = (row.index * IntOf<T>(SheenTable::kColumns) + column.index) * IntOf<T>(2);
+  const Vec4<T> e = FetchVec4<T>(table.albedo, index);  // of this column in both rows, then of the next
+  return Mix(Mix(e.x, e.z, column.fraction), Mix(e.y, e.w, column.fraction), row.fraction);
+}
+
 // Implements the Lighting that material/closure-inl.h expects. Directions are in world axes.
 template <class T>
 class LightingView {
@@ -97,6 +168,17 @@ class LightingView {
   }
   HWY_INLINE SpecularAlbedo<T> DfgAverage(T perceptual_roughness) const {
     return LookupDfgAverage(*data_->dfg, perceptual_roughness);
+  }
+  // Only where a material is anisotropic.
+  HWY_INLINE SpecularAlbedo<T> AnisotropicDfg(T n_dot_v, T t_dot_v, T perceptual_roughness, T strength) const {
+    return LookupAnisotropicDfg(*data_->anisotropic_dfg, n_dot_v, t_dot_v, perceptual_roughness, strength);
+  }
+  HWY_INLINE SpecularAlbedo<T> AnisotropicDfgAverage(T perceptual_roughness, T strength) const {
+    return LookupAnisotropicDfgAverage(*data_->anisotropic_dfg, perceptual_roughness, strength);
+  }
+  // Of the sheen lobe with colour 1; may exceed 1. Only where a material has sheen.
+  HWY_INLINE T SheenAlbedo(T n_dot_v, T perceptual_roughness) const {
+    return LookupSheen(*data_->sheen, n_dot_v, perceptual_roughness);
   }
 
  private:

@@ -5,12 +5,14 @@
 namespace facet {
 
 LightingData MakeLightingData(const std::vector<PunctualLight>& lights, const EnvironmentMap* environment,
-                              double rotation, double intensity) {
+                              double rotation, double intensity, AlbedoTables tables) {
   LightingData data;
   data.lights = lights.data();
   data.light_count = static_cast<int>(lights.size());
   data.environment = environment;
   data.dfg = &SharedDfgTable();
+  if (tables.sheen) data.sheen = &SharedSheenTable();
+  if (tables.anisotropic_dfg) data.anisotropic_dfg = &SharedAnisotropicDfgTable();
   // The environment is turned by +rotation, so a direction is looked up turned by -rotation:
   // x' = c x - s z, z' = s x + c z, where turning by +rotation is x' = c x + s z, z' = c z - s x.
   const auto c = static_cast<float>(Cos(rotation));

@@ -1,6 +1,7 @@
 // glTF 2.0's material as a closure: the sum of its lobes, evaluated under any lighting. From the top:
 //
 //   clear coat               lobes/clearcoat-inl.h
+//   sheen                    lobes/sheen-inl.h
 //   specular reflection      lobes/specular-inl.h, of microfacets (lobes/microfacets-inl.h, lobes/anisotropy-inl.h)
 //     with a thin film       lobes/iridescence-inl.h
 //   diffuse reflection       lobes/diffuse-inl.h
@@ -30,6 +31,7 @@
 #include "material/lobes/diffuse-inl.h"
 #include "material/lobes/diffuse_transmission-inl.h"
 #include "material/lobes/iridescence-inl.h"
+#include "material/lobes/sheen-inl.h"
 #include "material/lobes/specular-inl.h"
 #include "material/lobes/transmission-inl.h"
 
@@ -39,10 +41,12 @@ namespace HWY_NAMESPACE {
 
 inline constexpr MaterialFeatures kCoreLobes = kDiffuseLobe, kAllLobes = kDiffuseLobe | kLayerFeatures;
 
-// The inputs of the model at one point of a surface. Linear Rec. 709; world axes. Define one as `MaterialInputs<T>
-// in{};`: without the braces GCC calls a constructor that it generates for the baseline instruction set.
+// The inputs of the model at one point of a surface. Linear Rec. 709; world axes.
 template <class T>
 struct MaterialInputs {
+  // Each member on its own: clearing the whole as one block would cost every packet more than a hundred instructions.
+  HWY_INLINE MaterialInputs() {}
+
   Vec3<T> base_color;      // clamped to 1
   T alpha_coverage{};      // not read here
   T metallic{};            // [0, 1]
@@ -54,6 +58,7 @@ struct MaterialInputs {
   // Each of the following is read only if `lobes` has its bit.
   Interface<T> dielectric;  // kSpecular or kIor
   ClearcoatInputs<T> clearcoat;
+  SheenInputs<T> sheen;
   FilmInputs<T> film;
   AnisotropyInputs<T> anisotropy;
   TransmissionInputs<T> transmission;
@@ -69,6 +74,9 @@ struct MaterialInputs {
 //   Vec3<T> Prefiltered(Vec3<T> direction, T perceptual_roughness) const;
 //   SpecularAlbedo<T> Dfg(T n_dot_v, T perceptual_roughness) const;
 //   SpecularAlbedo<T> DfgAverage(T perceptual_roughness) const;       // the same, averaged: 2 * integral of mu d mu
+//   SpecularAlbedo<T> AnisotropicDfg(T n_dot_v, T t_dot_v, T perceptual_roughness, T strength) const;
+//   SpecularAlbedo<T> AnisotropicDfgAverage(T perceptual_roughness, T strength) const;
+//   T SheenAlbedo(T n_dot_v, T perceptual_roughness) const;           // may exceed 1
 template <class T, MaterialFeatures kPossible = kAllLobes>
 struct Closure {
   SurfaceView<T> at;
@@ -79,6 +87,7 @@ struct Closure {
   DiffuseLobe<T> diffuse;
   DiffuseTransmissionLobe<T> diffuse_transmission;
   ClearcoatLobe<T> clearcoat;
+  SheenLobe<T> sheen;
   TransmissionLobe<T> transmission;
 
   template <class Lighting>
@@ -98,19 +107,25 @@ struct Closure {
       diffuse_transmission = DiffuseTransmissionLobe<T>(in.diffuse_transmission, metallic, diffuse);
       if (Has(kTransmission)) diffuse_transmission.color = diffuse_transmission.color * (one - in.transmission.factor);
     }
+    if constexpr ((kPossible & kSheen) != 0) {
+      if (Has(kSheen)) sheen = SheenLobe<T>(at, in.sheen, lighting);
+    }
     if (Has(kClearcoat)) clearcoat = ClearcoatLobe<T>(in.clearcoat, view, lighting);
     if (Has(kTransmission)) {
       transmission = TransmissionLobe<T>(in.transmission, Has(kVolume), base, metallic, in.perceptual_roughness);
       transmission.color = transmission.color * diffuse.left_for_view;
+      if (Has(kSheen)) transmission.color = transmission.color * sheen.EnergyLeft();
       if (Has(kClearcoat)) transmission.color = transmission.color * clearcoat.EnergyLeft();
     }
   }
 
   HWY_INLINE bool Has(MaterialFeatures lobe) const { return (kPossible & lobe) != 0 && (lobes & lobe) != 0; }
 
-  // The roughness by which the specular lobe's albedo is looked up, for light from (or to) a direction.
-  HWY_INLINE T AlbedoRoughness(const Vec3<T>& direction) const {
-    return Has(kAnisotropy) ? anisotropic.AlbedoRoughness(direction) : microfacets.perceptual_roughness;
+  // The specular lobe's albedo for light from (or to) a direction. `cosine`: its cosine with the normal.
+  template <class Lighting>
+  HWY_INLINE SpecularAlbedo<T> Albedo(const Vec3<T>& direction, T cosine, const Lighting& lighting) const {
+    return Has(kAnisotropy) ? anisotropic.Albedo(direction, cosine, lighting)
+                            : microfacets.Albedo(direction, cosine, lighting);
   }
 
  private:
@@ -121,15 +136,17 @@ struct Closure {
     Interface<T> dielectric{{T(kF0), T(kF0), T(kF0)}, T(1.0f)};
     if (Has(kSpecular | kIor)) dielectric = in.dielectric;
     Vec3<T> metal = base;
-    if (Has(kIridescence)) {
-      const ThinFilm<T> film(in.film, at.n_dot_v);
-      if (Has(kDiffuseLobe)) dielectric.f0 = film.F0Over(dielectric.f0);
-      metal = film.F0Over(metal);
+    if constexpr ((kPossible & kIridescence) != 0) {
+      if (Has(kIridescence)) {
+        const ThinFilm<T> film(in.film, at.n_dot_v);
+        if (Has(kDiffuseLobe)) dielectric.f0 = film.F0Over(dielectric.f0);
+        metal = film.F0Over(metal);
+      }
     }
-    const T average_roughness =
-        Has(kAnisotropy) ? anisotropic.AverageAlbedoRoughness() : microfacets.perceptual_roughness;
-    return SpecularLobe<T>(dielectric, metal, metallic, /*is_white_at_grazing=*/!Has(kSpecular),
-                           lighting.Dfg(at.n_dot_v, AlbedoRoughness(at.view)), lighting.DfgAverage(average_roughness));
+    const SpecularAlbedo<T> average =
+        Has(kAnisotropy) ? anisotropic.AverageAlbedo(lighting) : microfacets.AverageAlbedo(lighting);
+    return SpecularLobe<T>(dielectric, metal, metallic, /*is_default=*/!Has(kSpecular | kIor | kIridescence),
+                           Albedo(at.view, at.n_dot_v, lighting), average);
   }
 };
 
@@ -143,14 +160,20 @@ template <class T, MaterialFeatures kPossible, class Lighting>
 HWY_INLINE Vec3<T> EvaluateClosure(const Closure<T, kPossible>& c, Vec3<T> direction, const Lighting& lighting) {
   const T n_dot_l = Dot(c.at.normal, direction);
   const Incidence<T> from = IncidenceFrom(c.at, direction);
-  const SpecularAlbedo<T> light_albedo = lighting.Dfg(from.n_dot_l, c.AlbedoRoughness(direction));
+  const SpecularAlbedo<T> light_albedo = c.Albedo(direction, from.n_dot_l, lighting);
   const T single = c.Has(kAnisotropy) ? c.anisotropic.Single(c.at, direction, from) : c.microfacets.Single(c.at, from);
 
   Vec3<T> brdf = c.specular.Direct(single, from.v_dot_h, light_albedo);
   if (c.Has(kDiffuseLobe)) brdf += c.diffuse.Direct(c.specular, light_albedo);
+  if constexpr ((kPossible & kSheen) != 0) {
+    if (c.Has(kSheen)) brdf = brdf * c.sheen.EnergyLeft() + c.sheen.Direct(c.at, from);
+  }
   Vec3<T> reflected = Select<T>(n_dot_l > T(0.0f), brdf * from.n_dot_l, Vec3<T>{});
   if (c.Has(kDiffuseTransmission)) {
-    reflected += c.diffuse_transmission.Direct(c.diffuse, c.specular, -n_dot_l, c.AlbedoRoughness(direction), lighting);
+    const auto albedo_at = [&](T cosine) HWY_ATTR { return c.Albedo(direction, cosine, lighting); };
+    Vec3<T> passed = c.diffuse_transmission.Direct(c.diffuse, c.specular, -n_dot_l, albedo_at);
+    if (c.Has(kSheen)) passed = passed * c.sheen.EnergyLeft();
+    reflected += passed;
   }
   if (c.Has(kClearcoat)) {
     const T coat = c.clearcoat.Direct(direction, lighting);
@@ -171,6 +194,7 @@ HWY_INLINE Vec3<T> EvaluateEnvironment(const Closure<T, kPossible>& c, const Mat
   if (c.Has(kDiffuseLobe)) sum.of_irradiance_over_pi += c.diffuse.Environment().of_irradiance_over_pi;
   Vec3<T> radiance = sum.radiance + lighting.IrradianceOverPi(c.at.normal) * sum.of_irradiance_over_pi;
   if (c.Has(kDiffuseTransmission)) radiance += c.diffuse_transmission.Environment(c.at, c.diffuse, lighting);
+  if (c.Has(kSheen)) radiance = radiance * c.sheen.EnergyLeft() + c.sheen.Environment(c.at, lighting).radiance;
   if (c.Has(kClearcoat)) {
     radiance =
         radiance * c.clearcoat.EnergyLeft() + c.clearcoat.Environment(in.clearcoat.perceptual_roughness, lighting);

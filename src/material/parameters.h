@@ -14,6 +14,7 @@ namespace facet {
 struct ParameterRange {
   float low = 0.0f, high = 1.0f;
   float exception = std::numeric_limits<float>::quiet_NaN();  // one more value that is allowed; NaN: none
+  bool less_is_exception = false;  // loaders read numbers below the range as the exception, and not as `low`
 };
 
 template <class Value>
@@ -26,6 +27,7 @@ struct Parameter {
   Value Material::*member;
   ParameterRange range = {};  // of numbers
   bool alternative = false;   // another name of a member that has a row of its own; only loaders read it
+  const char* key = nullptr;  // in the output of `facet info`; null: by its name in glTF (KeyOf() in cli/info_json.cc)
 };
 
 // Whether a parameter's group is an extension. Only extensions have an underscore in their names.
@@ -39,7 +41,9 @@ template <class Visit>
 constexpr void ForEachParameter(const Visit& visit) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity(), kSmallest = std::numeric_limits<float>::min();
   constexpr ParameterRange kShare{0.0f, 1.0f}, kPositive{0.0f, kInfinity}, kAny{-kInfinity, kInfinity};
-  constexpr ParameterRange kIorRange{1.0f, kInfinity, 0.0f}, kDistance{kSmallest, kInfinity, kInfinity};
+  constexpr ParameterRange kIorRange{1.0f, kInfinity, 0.0f};
+  // Exporters that write a distance of 0 mean that nothing is absorbed.
+  constexpr ParameterRange kDistance{kSmallest, kInfinity, kInfinity, /*less_is_exception=*/true};
   constexpr const char* kPbr = "pbrMetallicRoughness";
   const auto texture = [&](Slot slot) {
     const SlotInfo& info = InfoOf(slot);
@@ -122,8 +126,9 @@ constexpr void ForEachParameter(const Visit& visit) {
   visit(Parameter<glm::vec4>{"base colour factor", kOld, "diffuseFactor", &Material::base_color_factor, kShare, true});
   visit(Parameter<TextureRef>{
       "base colour texture", kOld, "diffuseTexture", &Material::base_color_texture, {}, /*alternative=*/true});
-  visit(Parameter<glm::vec3>{"specular factor", kOld, "specularFactor", &Material::specular_glossiness_specular_factor,
-                             kShare});
+  visit(Parameter<glm::vec3>{"specular-glossiness specular factor", kOld, "specularFactor",
+                             &Material::specular_glossiness_specular_factor, kShare, /*alternative=*/false,
+                             "specular_glossiness_specular_factor"});
   visit(Parameter<float>{"glossiness factor", kOld, "glossinessFactor", &Material::glossiness_factor, kShare});
   texture(Slot::SpecularGlossiness);
 }

@@ -147,6 +147,10 @@ HWY_INLINE MaterialInputs<T> ReadInputs(const Source& from, const Vec4<T>& base,
   const auto has = [&](MaterialFeatures lobe) HWY_ATTR { return (kPossible & lobe) != 0 && (features & lobe) != 0; };
   if (has(kSpecular | kIor)) in.dielectric = ReadDielectric<T>(from);
   if (has(kClearcoat)) in.clearcoat = ReadClearcoat<T>(from);
+  if (has(kSheen)) {
+    in.sheen = {ReadColor<T>(from, f.sheen_color, Slot::SheenColor),
+                ReadFactor<kA, T>(from, f.sheen_perceptual_roughness, Slot::SheenRoughness)};
+  }
   if (has(kIridescence)) in.film = ReadFilm<T>(from);
   if (has(kAnisotropy)) in.anisotropy = ReadAnisotropy<T>(from, in.normal);
   if (has(kTransmission)) in.transmission = ReadTransmission<T>(from, has(kVolume));

@@ -238,6 +238,7 @@ FramePlan MakeFramePlan(const Scene& scene, const PosedScene& posed, const Rende
   if (plan.planes.empty()) plan.disabled.emplace_back("planes besides colour: not asked for");
   if (settings.samples == 1) plan.disabled.emplace_back("multisampling: one sample a pixel");
   if (!settings.omit_unused) UseEverything(settings, plan);
+  plan.albedo_tables = {.sheen = any_has(kSheen), .anisotropic_dfg = any_has(kAnisotropy)};
   return plan;
 }
 

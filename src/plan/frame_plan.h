@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "facet/settings.h"
+#include "light/albedo_tables.h"
 #include "plan/frame_material.h"
 #include "scene/pose.h"
 
@@ -49,6 +50,7 @@ struct FramePlan {
   bool punctual_lights = false;
   bool alpha_test = false;
   bool blending = false;
+  AlbedoTables albedo_tables;     // that some material needs
   bool transmission = false;      // some material is seen through
   std::vector<PlaneKind> planes;  // of the film, besides colour
   bool zero_light = false;        // add a light of intensity zero

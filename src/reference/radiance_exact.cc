@@ -39,6 +39,20 @@ class ExactLighting {
     return Convert(known_.back().row.Average());
   }
 
+  // Of the rasterizer's table, read in double: a quadrature for each light would take longer than all else.
+  lanes::SpecularAlbedo<double> AnisotropicDfg(double n_dot_v, double t_dot_v, double roughness,
+                                               double strength) const {
+    return lanes::LookupAnisotropicDfg(SharedAnisotropicDfgTable(), n_dot_v, t_dot_v, roughness, strength);
+  }
+  lanes::SpecularAlbedo<double> AnisotropicDfgAverage(double roughness, double strength) const {
+    return lanes::LookupAnisotropicDfgAverage(SharedAnisotropicDfgTable(), roughness, strength);
+  }
+
+  // Of the rasterizer's table, whose error is below 0.0021: the quadrature would take longer than all else.
+  double SheenAlbedo(double n_dot_v, double roughness) const {
+    return lanes::LookupSheen(SharedSheenTable(), n_dot_v, roughness);
+  }
+
  private:
   struct Known {
     double roughness;

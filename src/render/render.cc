@@ -128,8 +128,8 @@ class Renderer::Frames {
     if (plan.punctual_lights) lights = MakePunctualLights(posed.lights, view.eye_world);
     Warn(WhyNothingIsLit(plan, geometry_.material_visible, !lights.empty(), settings), stats);
     if (plan.zero_light) lights.emplace_back().type = LightType::Directional;
-    const LightingData all_light =
-        MakeLightingData(lights, environment, settings.environment.rotation, settings.environment.intensity);
+    const LightingData all_light = MakeLightingData(lights, environment, settings.environment.rotation,
+                                                    settings.environment.intensity, plan.albedo_tables);
     LightingData lighting = all_light;
     if (!plan.environment_light) lighting.environment = nullptr;  // it may still be the background
     const EnvironmentBackground background =

@@ -35,6 +35,35 @@ FeatureSet ParseFeatures(Text where, Text text) {
   return features;
 }
 
+// The help of "without": the words in lines as wide as those of the other options.
+struct FeatureHelp {
+  std::array<char, 1024> text{};
+  std::size_t size = 0;
+
+  constexpr FeatureHelp() {
+    constexpr std::size_t kLine = 50;
+    Append("Features to disable, with commas between them:\n");
+    std::size_t line = 0;
+    for (const FeatureWord& known : kFeatureWords) {
+      const bool is_last = known.feature == kFeatureWords.back().feature;
+      const std::size_t with_comma = known.word.size() + (is_last ? 0 : 1);
+      if (line > 0 && line + 1 + with_comma > kLine) Append("\n"), line = 0;
+      if (line > 0) Append(" "), ++line;
+      Append(known.word);
+      if (!is_last) Append(",");
+      line += with_comma;
+    }
+    Append(" [none]");
+  }
+  constexpr Text View() const { return {text.data(), size}; }
+
+ private:
+  constexpr void Append(Text words) {
+    for (const char c : words) text.at(size++) = c;
+  }
+};
+constexpr FeatureHelp kFeatureHelp;
+
 constexpr std::array kOptions = {
     RequestOption{"size", kOutput, "WxH|N", "1024x1024", "Pixels, each side 1 to 16384; N is NxN [1024x1024]",
                   [](RenderRequest& r, Text where, Text text) {
@@ -89,10 +118,7 @@ constexpr std::array kOptions = {
                   }},
     RequestOption{"variant", kScene, "NAME|INDEX", "", "A material variant of the file [none]",
                   [](RenderRequest& r, Text, Text text) { r.variant = text; }},
-    RequestOption{"without", kScene, "LIST", "none",
-                  "Features to disable, with commas between them:\nbase-color-texture, metallic-roughness-texture,\n"
-                  "normal-texture, occlusion, emission,\nvertex-colors, environment-light, punctual-lights,\n"
-                  "alpha-test, blending (drawn as opaque), skins,\nmorph-targets [none]",
+    RequestOption{"without", kScene, "LIST", "none", kFeatureHelp.View(),
                   [](RenderRequest& r, Text where, Text text) { r.settings.without = ParseFeatures(where, text); }},
 
     RequestOption{"environment", kLight, "FILE|none", "studio",

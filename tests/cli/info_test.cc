@@ -75,6 +75,101 @@ TEST(FacetInfo, TextNamesEverything) {
   }
 }
 
+// A file with these materials and no geometry.
+std::string WithMaterials(const char* materials) {
+  return std::string(R"({"asset": {"version": "2.0"}, "images": [{"uri": "data:image/png;base64,AAAA"}],
+      "textures": [{"source": 0}], "materials": [)") +
+         materials + "]}";
+}
+
+std::vector<std::string> Keys(const nlohmann::json& object) {
+  std::vector<std::string> keys;
+  for (const auto& item : object.items()) keys.push_back(item.key());
+  return keys;
+}
+
+const std::vector<std::string> kKeysOfEveryMaterial = {"alpha_cutoff",
+                                                       "alpha_mode",
+                                                       "base_color_factor",
+                                                       "double_sided",
+                                                       "emissive_factor",
+                                                       "emissive_strength",
+                                                       "metallic_factor",
+                                                       "model",
+                                                       "name",
+                                                       "primitives",
+                                                       "roughness_factor",
+                                                       "textures",
+                                                       "unlit"};
+
+TEST(FacetInfo, JsonStatesParametersThatAreNotTheDefaults) {
+  const Folder folder;
+  const std::string in = folder / "in.gltf";
+  WriteText(in, WithMaterials(R"(
+      {}, {"normalTexture": {"index": 0, "scale": 0.5}, "occlusionTexture": {"index": 0, "strength": 0.25}},
+      {"extensions": {
+        "KHR_materials_clearcoat": {"clearcoatFactor": 0.5, "clearcoatRoughnessFactor": 0.25,
+                                    "clearcoatNormalTexture": {"index": 0, "scale": 2}},
+        "KHR_materials_sheen": {"sheenColorFactor": [1, 0.5, 0.25], "sheenRoughnessFactor": 0},
+        "KHR_materials_specular": {"specularFactor": 0.5, "specularColorFactor": [2, 1, 0.5]},
+        "KHR_materials_ior": {"ior": 1.25}, "KHR_materials_dispersion": {"dispersion": 0.125},
+        "KHR_materials_transmission": {"transmissionFactor": 0.75},
+        "KHR_materials_volume": {"thicknessFactor": 3, "attenuationDistance": 0.5, "attenuationColor": [1, 0.5, 0]},
+        "KHR_materials_diffuse_transmission": {"diffuseTransmissionFactor": 0.5,
+                                               "diffuseTransmissionColorFactor": [0, 0.5, 1]},
+        "KHR_materials_iridescence": {"iridescenceFactor": 1, "iridescenceIor": 1.5,
+                                      "iridescenceThicknessMinimum": 50, "iridescenceThicknessMaximum": 550},
+        "KHR_materials_anisotropy": {"anisotropyStrength": 0.5, "anisotropyRotation": -1,
+                                     "anisotropyTexture": {"index": 0}}}},
+      {"extensions": {"KHR_materials_pbrSpecularGlossiness": {
+        "diffuseFactor": [0.5, 0.25, 0, 1], "specularFactor": [0.5, 0.25, 0], "glossinessFactor": 0.5}}})"));
+  const nlohmann::json materials = Info(in).at("materials");
+  EXPECT_EQ(Keys(materials[0]), kKeysOfEveryMaterial);
+  EXPECT_EQ(materials[0].at("base_color_factor"), (nlohmann::json{1.0, 1.0, 1.0, 1.0}));
+
+  // What a material states beyond the keys of every one.
+  const auto stated = [](nlohmann::json material) {
+    for (const std::string& key : kKeysOfEveryMaterial) material.erase(key);
+    return material;
+  };
+  EXPECT_EQ(stated(materials[1]), (nlohmann::json{{"normal_scale", 0.5}, {"occlusion_strength", 0.25}}));
+  EXPECT_EQ(stated(materials[2]), (nlohmann::json{{"clearcoat_factor", 0.5},
+                                                  {"clearcoat_roughness_factor", 0.25},
+                                                  {"clearcoat_normal_scale", 2.0},
+                                                  {"sheen_color_factor", {1.0, 0.5, 0.25}},
+                                                  {"specular_factor", 0.5},
+                                                  {"specular_color_factor", {2.0, 1.0, 0.5}},
+                                                  {"ior", 1.25},
+                                                  {"dispersion", 0.125},
+                                                  {"transmission_factor", 0.75},
+                                                  {"thickness_factor", 3.0},
+                                                  {"attenuation_distance", 0.5},
+                                                  {"attenuation_color", {1.0, 0.5, 0.0}},
+                                                  {"diffuse_transmission_factor", 0.5},
+                                                  {"diffuse_transmission_color_factor", {0.0, 0.5, 1.0}},
+                                                  {"iridescence_factor", 1.0},
+                                                  {"iridescence_ior", 1.5},
+                                                  {"iridescence_thickness_minimum", 50.0},
+                                                  {"iridescence_thickness_maximum", 550.0},
+                                                  {"anisotropy_strength", 0.5},
+                                                  {"anisotropy_rotation", -1.0}}));
+  EXPECT_EQ(Keys(materials[2].at("textures")), (std::vector<std::string>{"anisotropy", "clearcoat_normal"}));
+  EXPECT_EQ(stated(materials[3]),
+            (nlohmann::json{{"specular_glossiness_specular_factor", {0.5, 0.25, 0.0}}, {"glossiness_factor", 0.5}}));
+  EXPECT_EQ(materials[3].at("model"), "specular-glossiness");
+  EXPECT_EQ(materials[3].at("base_color_factor"), (nlohmann::json{0.5, 0.25, 0.0, 1.0}));
+
+  const std::string human = RunFacet({"info", in}).out;
+  for (const char* words :
+       {"opaque, metallic 1, roughness 1; no textures; not used", "clear coat factor 0.5, clear coat roughness factor",
+        "sheen colour factor 1 0.5 0.25", "specular colour factor 2 1 0.5, index of refraction 1.25",
+        "attenuation distance 0.5, attenuation colour 1 0.5 0", "iridescence thickness maximum 550",
+        "specular-glossiness, specular-glossiness specular factor 0.5 0.25 0, glossiness factor 0.5",
+        "textures: clearcoat normal, anisotropy"}) {
+    EXPECT_NE(human.find(words), std::string::npos) << words << " is missing in\n" << human;
+  }
+}
+
 TEST(FacetInfo, PicturesAreDescribedWithoutDecoding) {
   const Folder folder;
   // The headers of a grey-and-alpha PNG of 640 x 480, and of a JPEG that ends before its size.

@@ -2,8 +2,12 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <set>
+#include <utility>
+
 #include "cli/program.h"
 #include "cli/tiny_scene.h"
+#include "facet/settings.h"
 #include "facet/version.h"
 
 namespace facet::test {
@@ -74,6 +78,34 @@ TEST(FacetHelp, NamesEveryOptionAsTheManualDoes) {
     EXPECT_NE(help.find(option), std::string::npos) << option << " is not in the help";
     const std::string flag = "Fl " + std::string(option + 1);  // mdoc's Fl sets the first hyphen
     EXPECT_NE(manual.find(flag), std::string::npos) << option << " is not in the manual";
+  }
+}
+
+// What can be left out is in the help, the manual and the page about it, each word by itself.
+TEST(FacetHelp, NamesEveryFeatureAsTheManualDoes) {
+  const auto words_of = [](std::string text) {
+    std::set<std::string> words;
+    std::string word;
+    for (const char c : text + " ") {
+      if ((c >= 'a' && c <= 'z') || c == '-') {
+        word += c;
+      } else {
+        words.insert(std::exchange(word, ""));
+      }
+    }
+    return words;
+  };
+  const std::string docs = std::string(FACET_SOURCE_DIR) + "/docs/";
+  for (const std::string& text : {RunFacet({"render", "--help"}).out, RunFacet({"explain", "--help"}).out,
+                                  ReadText(docs + "facet.1"), ReadText(docs + "explain.md")}) {
+    const std::set<std::string> words = words_of(text);
+    for (const FeatureWord& known : kFeatureWords) {
+      EXPECT_TRUE(words.contains(std::string(known.word))) << known.word << " is not in\n" << text.substr(0, 200);
+    }
+  }
+  const std::string help = RunFacet({"render", "--help"}).out;
+  for (std::size_t begin = 0, end; (end = help.find('\n', begin)) != std::string::npos; begin = end + 1) {
+    EXPECT_LE(end - begin, 85u) << help.substr(begin, end - begin);
   }
 }
 

@@ -48,7 +48,9 @@ TRAINING_SCENE = "MetalRoughSpheresNoTextures"  # smooth to rough spheres: all o
 STUDIO = ["--environment-rotation", "135", "--environment-intensity", "0.5"]
 COLOUR_SCENE = "DamagedHelmet"
 # Extensions that change the look of a surface and that facet has; scenes with others count for their shape.
-LOOKS_KNOWN = {"KHR_materials_unlit", "KHR_materials_emissive_strength", "KHR_materials_variants"}
+LOOKS_KNOWN = {"KHR_materials_" + name for name in (
+    "anisotropy", "clearcoat", "diffuse_transmission", "dispersion", "emissive_strength", "ior", "iridescence",
+    "pbrSpecularGlossiness", "sheen", "specular", "transmission", "unlit", "variants", "volume")}
 
 
 def gltf_json(path):

@@ -95,7 +95,7 @@ TEST(Explain, NamesAndCountsWhatTheFrameUses) {
 
   EXPECT_EQ(Costed(e), (std::set<std::string>{"base-color-texture", "metallic-roughness-texture", "normal-texture",
                                               "occlusion", "environment-light", "punctual-lights", "background",
-                                              "multisampling", "anisotropy"}));
+                                              "multisampling", "anisotropic-filtering"}));
   EXPECT_EQ(e.environment, "16x8");
   EXPECT_TRUE(e.environment_light && e.environment_background);
   EXPECT_EQ(e.lights.spot, 1);

@@ -10,6 +10,7 @@ namespace facet::testing {
 
 // nodes: 0 a textured triangle; 1 a camera; 2 a light; 3 a skinned triangle; 4 its joint; 5 instances of the first;
 // 6 has a child, 7. The second scene holds a mesh of its own, node 8, that the first does not show.
+// materials: 0 core glTF; 1 unlit; 2 every layer; 3 specular-glossiness; the last two are on nothing.
 // images: 0 a picture in the file. Animation 0 moves nodes 0 (translation), 4 (rotation) and 3 (weights).
 inline nlohmann::json Everything() {
   FileMaker file;
@@ -49,7 +50,10 @@ inline nlohmann::json Everything() {
     "asset": {"generator": "g", "copyright": "c", "minVersion": "2.0"},
     "extensionsUsed": ["KHR_lights_punctual", "KHR_materials_variants", "KHR_materials_unlit", "KHR_texture_transform",
                        "KHR_materials_emissive_strength", "KHR_node_visibility", "EXT_mesh_gpu_instancing",
-                       "EXT_texture_webp"],
+                       "EXT_texture_webp", "KHR_materials_clearcoat", "KHR_materials_sheen", "KHR_materials_specular",
+                       "KHR_materials_ior", "KHR_materials_transmission", "KHR_materials_volume",
+                       "KHR_materials_dispersion", "KHR_materials_diffuse_transmission", "KHR_materials_iridescence",
+                       "KHR_materials_anisotropy", "KHR_materials_pbrSpecularGlossiness"],
     "extensions": {
       "KHR_lights_punctual": {"lights": [
         {"type": "spot", "name": "l", "color": [1, 1, 0.5], "intensity": 2, "range": 10,
@@ -69,7 +73,31 @@ inline nlohmann::json Everything() {
        "emissiveTexture": {"index": 0, "texCoord": 0}, "emissiveFactor": [1, 1, 1],
        "alphaMode": "MASK", "alphaCutoff": 0.25, "doubleSided": true,
        "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 2}}},
-      {"extensions": {"KHR_materials_unlit": {}}}],
+      {"extensions": {"KHR_materials_unlit": {}}},
+      {"name": "layers", "extensions": {
+        "KHR_materials_clearcoat": {"clearcoatFactor": 0.5, "clearcoatTexture": {"index": 0},
+          "clearcoatRoughnessFactor": 0.5, "clearcoatRoughnessTexture": {"index": 0},
+          "clearcoatNormalTexture": {"index": 0, "scale": 0.5}},
+        "KHR_materials_sheen": {"sheenColorFactor": [1, 0.5, 0.25], "sheenColorTexture": {"index": 0},
+          "sheenRoughnessFactor": 0.5, "sheenRoughnessTexture": {"index": 0}},
+        "KHR_materials_specular": {"specularFactor": 0.5, "specularTexture": {"index": 0},
+          "specularColorFactor": [2, 0.5, 0.25], "specularColorTexture": {"index": 0}},
+        "KHR_materials_ior": {"ior": 1.25},
+        "KHR_materials_transmission": {"transmissionFactor": 0.5, "transmissionTexture": {"index": 0}},
+        "KHR_materials_volume": {"thicknessFactor": 2, "thicknessTexture": {"index": 0}, "attenuationDistance": 3,
+          "attenuationColor": [1, 0.5, 0.25]},
+        "KHR_materials_dispersion": {"dispersion": 0.5},
+        "KHR_materials_diffuse_transmission": {"diffuseTransmissionFactor": 0.5,
+          "diffuseTransmissionTexture": {"index": 0}, "diffuseTransmissionColorFactor": [1, 0.5, 0.25],
+          "diffuseTransmissionColorTexture": {"index": 0}},
+        "KHR_materials_iridescence": {"iridescenceFactor": 0.5, "iridescenceTexture": {"index": 0},
+          "iridescenceIor": 1.5, "iridescenceThicknessMinimum": 500, "iridescenceThicknessMaximum": 200,
+          "iridescenceThicknessTexture": {"index": 0}},
+        "KHR_materials_anisotropy": {"anisotropyStrength": 0.5, "anisotropyRotation": 1,
+          "anisotropyTexture": {"index": 0}}}},
+      {"name": "older", "extensions": {"KHR_materials_pbrSpecularGlossiness": {
+        "diffuseFactor": [1, 0.5, 0.25, 1], "diffuseTexture": {"index": 0}, "specularFactor": [1, 0.5, 0.25],
+        "glossinessFactor": 0.5, "specularGlossinessTexture": {"index": 0}}}}],
     "cameras": [
       {"name": "p", "type": "perspective", "perspective": {"yfov": 1, "znear": 0.1, "zfar": 100, "aspectRatio": 1}},
       {"name": "o", "type": "orthographic", "orthographic": {"xmag": 1, "ymag": 1, "znear": 0, "zfar": 10}}],

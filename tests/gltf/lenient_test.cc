@@ -218,7 +218,7 @@ TEST(Lenient, MistakesThatDoNotMatterAreWarnings) {
       {"/materials/0/pbrMetallicRoughness/baseColorTexture/extensions/KHR_texture_transform/scale", 2,
        "scale: ignored"},
       {"/materials/0", 5, "materials[0]: is not an object; an empty one is read"},
-      {"/meshes/0/primitives/0/material", 9, "meshes[0].primitives[0].material: ignored (9 is not one of the 2"},
+      {"/meshes/0/primitives/0/material", 9, "meshes[0].primitives[0].material: ignored (9 is not one of the 4"},
       {"/meshes/0/primitives/0/extensions/KHR_materials_variants/mappings/0/material", 9,
        "mappings[0].material: ignored"},
       {"/meshes/0/primitives/0/extensions/KHR_materials_variants/mappings/0/variants", {9}, "variants[0]: ignored"},

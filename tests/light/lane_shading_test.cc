@@ -16,6 +16,7 @@ struct ShadingTask {
   const LightingData* lighting;
   const float* in;  // kShadingComponents arrays of `count`
   int count;        // a multiple of 64
+  bool anisotropic;
   bool lanes;       // else float by float
   float* out;       // 3 arrays of `count`
 };
@@ -43,6 +44,9 @@ HWY_INLINE void ShadeOne(const ShadingTask& task, int first) {
   in.occlusion = number(5);
   in.emissive = vector(6);
   in.normal = vector(9);
+  const Vec3<T> tangent = NormalizeOr(Cross(in.normal, vector(15)), vector(12));
+  in.anisotropy = {tangent, Cross(in.normal, tangent), number(6)};
+  if (task.anisotropic) in.lobes |= kAnisotropy;
   const Vec3<T> out = ShadeClosure(in, vector(12), vector(15), LightingView<T>(*task.lighting));
   StoreAs(out.x, task.out + first);
   StoreAs(out.y, task.out + task.count + first);
@@ -108,19 +112,21 @@ TEST(LaneShading, HasTheBitsOfFloatsOnEveryInstructionSet) {
   lights[2].spot_offset = -2.0f;
   for (PunctualLight& light : lights) light.intensity[0] = light.intensity[1] = light.intensity[2] = 3.0f;
   const auto studio = StudioEnvironment();
-  const LightingData lighting = MakeLightingData(lights, studio.get(), 1.0, 1.5);
+  const LightingData lighting = MakeLightingData(lights, studio.get(), 1.0, 1.5, {.anisotropic_dfg = true});
   constexpr int kCount = 4096;
   const std::vector<float> in = RandomFragments(kCount);
   std::vector<float> expected(3 * kCount), out(3 * kCount);
-  ShadeAllForTarget(Target::Scalar)({&lighting, in.data(), kCount, false, expected.data()});
-  for (float value : expected) ASSERT_TRUE(std::isfinite(value) && value >= 0.0f);
-  for (Target target : {Target::Scalar, Target::Sse4, Target::Avx2, Target::Avx3, Target::Neon}) {
-    if (!TargetIsAvailable(target)) continue;
-    for (bool use_lanes : {false, true}) {
-      std::fill(out.begin(), out.end(), -1.0f);
-      ShadeAllForTarget(target)({&lighting, in.data(), kCount, use_lanes, out.data()});
-      EXPECT_EQ(std::memcmp(out.data(), expected.data(), out.size() * sizeof(float)), 0)
-          << TargetName(target) << (use_lanes ? " lanes" : " floats");
+  for (bool anisotropic : {false, true}) {
+    ShadeAllForTarget(Target::Scalar)({&lighting, in.data(), kCount, anisotropic, false, expected.data()});
+    for (float value : expected) ASSERT_TRUE(std::isfinite(value) && value >= 0.0f);
+    for (Target target : {Target::Scalar, Target::Sse4, Target::Avx2, Target::Avx3, Target::Neon}) {
+      if (!TargetIsAvailable(target)) continue;
+      for (bool use_lanes : {false, true}) {
+        std::fill(out.begin(), out.end(), -1.0f);
+        ShadeAllForTarget(target)({&lighting, in.data(), kCount, anisotropic, use_lanes, out.data()});
+        EXPECT_EQ(std::memcmp(out.data(), expected.data(), out.size() * sizeof(float)), 0)
+            << TargetName(target) << (use_lanes ? " lanes" : " floats") << (anisotropic ? ", anisotropic" : "");
+      }
     }
   }
 }

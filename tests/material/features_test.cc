@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <string_view>
+
 #include "material/slots.h"
 
 namespace facet {
@@ -57,6 +59,85 @@ TEST(MaterialFeatures, UnlitKeepsColourAndCoverageOnly) {
   EXPECT_EQ(FeaturesOf(m), BitOf(Slot::BaseColor) | kAlphaTest | kDoubleSided);
   m.alpha_mode = AlphaMode::Blend;
   EXPECT_EQ(FeaturesOf(m), BitOf(Slot::BaseColor) | kAlphaBlend | kDoubleSided);
+}
+
+// Every layer by the factor that shows it, and what hides it.
+struct LayerCase {
+  const char* name;
+  MaterialFeatures bit;
+  void (*show)(Material&);
+  bool of_metals;  // and not of dielectrics alone
+  bool of_older;   // the specular-glossiness model has it, too
+};
+const LayerCase kLayers[] = {
+    {"clear coat", kClearcoat, [](Material& m) { m.clearcoat_factor = 0.1f; }, true, true},
+    {"sheen", kSheen, [](Material& m) { m.sheen_color_factor.y = 0.1f; }, true, true},
+    {"specular factor", kSpecular, [](Material& m) { m.specular_factor = 0.5f; }, false, false},
+    {"specular colour", kSpecular, [](Material& m) { m.specular_color_factor.z = 0.5f; }, false, false},
+    {"ior", kIor, [](Material& m) { m.ior = 1.4f; }, false, false},
+    {"ior of 0", kIor, [](Material& m) { m.ior = 0.0f; }, false, false},
+    {"transmission", kTransmission, [](Material& m) { m.transmission_factor = 0.1f; }, false, true},
+    {"volume", kTransmission | kVolume, [](Material& m) { m.transmission_factor = 0.1f, m.thickness_factor = 1.0f; },
+     false, true},
+    {"dispersion", kTransmission | kVolume | kDispersion,
+     [](Material& m) { m.transmission_factor = 0.1f, m.thickness_factor = 1.0f, m.dispersion = 1.0f; }, false, true},
+    {"diffuse transmission", kDiffuseTransmission, [](Material& m) { m.diffuse_transmission_factor = 0.1f; }, false,
+     true},
+    {"scattering volume", kDiffuseTransmission | kVolume,
+     [](Material& m) { m.diffuse_transmission_factor = 0.1f, m.thickness_factor = 1.0f; }, false, true},
+    {"iridescence", kIridescence, [](Material& m) { m.iridescence_factor = 0.1f; }, true, true},
+    {"anisotropy", kAnisotropy, [](Material& m) { m.anisotropy_strength = 0.1f; }, true, true},
+};
+
+TEST(MaterialFeatures, LayersShowByTheirFactors) {
+  for (const LayerCase& layer : kLayers) {
+    SCOPED_TRACE(layer.name);
+    Material m;
+    m.metallic_factor = 0.5f;
+    layer.show(m);
+    EXPECT_EQ(FeaturesOf(m), kLit | kDiffuseLobe | layer.bit);
+    EXPECT_EQ(FeaturesOf(m, /*on_surface=*/false), 0u) << "points and lines without normals show colour alone";
+    m.metallic_factor = 1.0f;
+    EXPECT_EQ(FeaturesOf(m), kLit | (layer.of_metals ? layer.bit : 0)) << "of a metal";
+    m.model = ShadingModel::SpecularGlossiness;
+    EXPECT_EQ(FeaturesOf(m) & kLayerFeatures, layer.of_older ? layer.bit : 0) << "of the older model";
+    m.model = ShadingModel::Unlit;
+    EXPECT_EQ(FeaturesOf(m), 0u);
+  }
+}
+
+TEST(MaterialFeatures, TexturesOfHiddenLayersAreNotRead) {
+  Material m;
+  m.metallic_factor = 0.5f;
+  for (const SlotInfo& slot : kSlots) {
+    if (slot.gltf_group != nullptr && std::string_view(slot.gltf_group).starts_with("KHR_")) (m.*slot.ref).texture = 0;
+  }
+  // The specular factor and its colour are 1 by default, and so their textures show.
+  const MaterialFeatures specular = kSpecular | BitOf(Slot::Specular) | BitOf(Slot::SpecularColor);
+  EXPECT_EQ(FeaturesOf(m), kLit | kDiffuseLobe | specular);
+  m.specular_factor = 0.0f;
+  EXPECT_EQ(FeaturesOf(m), kLit | kDiffuseLobe | kSpecular);
+  m.specular_factor = 1.0f;
+  m.specular_color_factor = glm::vec3(0.0f);
+  EXPECT_EQ(FeaturesOf(m), kLit | kDiffuseLobe | kSpecular | BitOf(Slot::Specular));
+  m.specular_color_factor = glm::vec3(1.0f);
+  // Roughness textures show where the layer does and their factor is not 0.
+  m.clearcoat_factor = 1.0f;
+  const MaterialFeatures coat = kClearcoat | BitOf(Slot::Clearcoat) | BitOf(Slot::ClearcoatNormal);
+  EXPECT_EQ(FeaturesOf(m), kLit | kDiffuseLobe | specular | coat);
+  m.clearcoat_roughness_factor = 0.5f;
+  EXPECT_EQ(FeaturesOf(m), kLit | kDiffuseLobe | specular | coat | BitOf(Slot::ClearcoatRoughness));
+  m.clearcoat_factor = 0.0f;
+  // A film of one thickness reads none.
+  m.iridescence_factor = 1.0f;
+  const MaterialFeatures film = kIridescence | BitOf(Slot::Iridescence);
+  EXPECT_EQ(FeaturesOf(m), kLit | kDiffuseLobe | specular | film | BitOf(Slot::IridescenceThickness));
+  m.iridescence_thickness_minimum = m.iridescence_thickness_maximum;
+  EXPECT_EQ(FeaturesOf(m), kLit | kDiffuseLobe | specular | film);
+  // Nothing is behind a metal.
+  m.metallic_factor = 1.0f;
+  m.transmission_factor = m.diffuse_transmission_factor = m.thickness_factor = m.dispersion = 1.0f;
+  EXPECT_EQ(FeaturesOf(m), kLit | film);
 }
 
 }  // namespace

@@ -47,7 +47,7 @@ double Albedo(const MaterialInputs<double>& in, double n_dot_v, const LightingDa
   const Vec3<double> view = {std::sqrt(1.0 - n_dot_v * n_dot_v), 0.0, n_dot_v};
   const auto closure = lanes::MakeClosure(in, view, lighting);
   constexpr int kPolar = 220, kAzimuth = 48;
-  const double low = std::log(closure.specular.alpha * 0.02), high = std::log(3e4);
+  const double low = std::log(closure.microfacets.alpha * 0.02), high = std::log(3e4);
   const double step = (high - low) / kPolar;
   double sum = 0.0;
   for (int i = 0; i < kPolar; ++i) {

@@ -43,7 +43,8 @@ Film Joined(const Scene& scene, const RenderSettings& settings, int max_rows, Re
 }
 
 TEST(Bands, AreTheImageBitForBit) {
-  for (const char* name : {"showcase.glb", "material_grid.glb", "room.glb", "animated.glb"}) {
+  for (const char* name :
+       {"showcase.glb", "material_grid.glb", "materials.glb", "gallery.glb", "room.glb", "animated.glb"}) {
     const LoadedScene loaded = Bundled(name);
     for (const int samples : {1, 4}) {
       RenderSettings settings;

@@ -3,13 +3,19 @@
 
 #include <functional>
 #include <map>
+#include <set>
 #include <string>
+#include <type_traits>
 
 #include "facet/scene.h"
+#include "material/parameters.h"
 #include "scene/scene_helpers.h"
 
 namespace facet {
 namespace {
+
+// By a version that knew no extension but unlit materials and the emissive strength.
+const char* const kDescriptionBeforeExtensions = "127eb7eb4e4759332f168d2f5cdd5c4b5444af0c7982ccad0e9e96335d1ca760";
 
 Image OnePixel(std::uint8_t red) {
   Image image{1, 1, 3, ChannelType::U8, Encoding::Srgb, {}};
@@ -97,6 +103,42 @@ TEST(HashScene, EveryNumberOfTheDescriptionCounts) {
   for (const auto& [name, change] : changes) EXPECT_EQ(Changed(change), " description") << name;
 }
 
+// Each parameter of a material counts, and as itself: a number that stands in two of them makes two descriptions.
+TEST(HashScene, EveryParameterOfAMaterialCounts) {
+  std::set<std::string> descriptions = {ToHex(HashScene(Everything()).description)};
+  std::size_t changes = 1;
+  const auto add = [&](const char* name, const Change& change) {
+    Scene scene = Everything();
+    change(scene);
+    descriptions.insert(ToHex(HashScene(scene).description));
+    EXPECT_EQ(descriptions.size(), ++changes) << name << " does not count, or counts as another parameter";
+  };
+  ForEachParameter([&]<class Value>(const Parameter<Value>& parameter) {
+    if (parameter.alternative) return;
+    const auto value = [member = parameter.member](Scene& s) -> Value& { return s.materials[0].*member; };
+    if constexpr (std::is_same_v<Value, float>) {
+      add(parameter.name, [&](Scene& s) { value(s) = 0.375f; });
+      add(parameter.name, [&](Scene& s) { value(s) = 0.75f; });
+    } else if constexpr (std::is_same_v<Value, glm::vec3> || std::is_same_v<Value, glm::vec4>) {
+      for (int c = 0; c < Value::length(); ++c) {
+        add(parameter.name, [&](Scene& s) { value(s)[c] = 0.375f; });
+      }
+    } else if constexpr (std::is_same_v<Value, TextureRef>) {
+      const auto refer = [&](Scene& s) { value(s) = {.texture = 0, .tex_coord = 1}; };
+      add(parameter.name, refer);
+      add(parameter.name, [&](Scene& s) { refer(s), value(s).tex_coord = 2; });
+      add(parameter.name, [&](Scene& s) { refer(s), value(s).offset.y = 0.5f; });
+      add(parameter.name, [&](Scene& s) { refer(s), value(s).scale.x = 0.5f; });
+      add(parameter.name, [&](Scene& s) { refer(s), value(s).rotation = 0.5f; });
+    } else if constexpr (std::is_same_v<Value, bool>) {
+      add(parameter.name, [&](Scene& s) { value(s) = true; });
+    } else {
+      add(parameter.name, [&](Scene& s) { value(s) = Value(1); });
+      add(parameter.name, [&](Scene& s) { value(s) = Value(2); });
+    }
+  });
+}
+
 TEST(HashScene, EveryVertexAttributeCountsAsGeometry) {
   const std::map<std::string, Change> changes = {
       {"position", [](Scene& s) { First(s).positions[2].z = 1e-30f; }},
@@ -108,7 +150,10 @@ TEST(HashScene, EveryVertexAttributeCountsAsGeometry) {
       {"colour", [](Scene& s) { First(s).colors[0].w = 0.0f; }},
       {"joint", [](Scene& s) { First(s).joints[0][0][3] = 1; }},
       {"weight", [](Scene& s) { First(s).weights[0][0][3] = 1.0f; }},
-      {"order", [](Scene& s) { First(s).indices = {1, 2, 0}; }},
+      {"order",
+       [](Scene& s) {
+         First(s).indices = {1, 2, 0};
+       }},
       {"no indices", [](Scene& s) { First(s).indices.clear(); }},
       {"morph target", [](Scene& s) { First(s).targets[0].positions[0].x = 1.0f; }},
   };
@@ -119,6 +164,11 @@ TEST(HashScene, TexturesAreWhatTheyDecodeTo) {
   EXPECT_EQ(Changed([](Scene& s) { s.images[0].source = MakeImageSource(OnePixel(254), "red"); }), " textures");
   EXPECT_EQ(Changed([](Scene& s) { s.images[0].source = std::make_shared<NoSource>(); }), " textures");
   EXPECT_EQ(Changed([](Scene& s) { s.images[0].source = MakeImageSource(OnePixel(255), "another name"); }), "");
+}
+
+// Verification compares it with what older versions wrote down.
+TEST(HashScene, TheDescriptionOfScenesWithoutExtensionsStays) {
+  EXPECT_EQ(ToHex(HashScene(Everything()).description), kDescriptionBeforeExtensions);
 }
 
 TEST(HashScene, NamesDoNotCount) {

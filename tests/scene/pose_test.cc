@@ -6,6 +6,7 @@
 #include <set>
 
 #include "facet/error.h"
+#include "material/slots.h"
 #include "scene/topology.h"
 #include "scene_helpers.h"
 
@@ -345,6 +346,120 @@ TEST(Pose, MakesTheTangentsThatNormalMapsNeed) {
 
   scene.materials[0].normal_texture.texture = -1;
   EXPECT_EQ(Pose(scene, {}).drawables[0].geometry, &scene.meshes[0].primitives[0]) << "without a normal map";
+}
+
+// --- Anisotropy, which needs tangents even without a texture
+// ----------------------------------------------------------
+
+// A right triangle in the plane z = 0 with normals along z, anisotropic.
+Scene AnisotropicTriangle() {
+  Primitive primitive = Triangle();
+  primitive.normals.assign(3, {0, 0, 1});
+  primitive.material = 0;
+  Scene scene = SceneOf(primitive);
+  scene.materials.resize(1);
+  scene.materials[0].anisotropy_strength = 0.5f;
+  return scene;
+}
+
+Primitive& Only(Scene& scene) { return scene.meshes[0].primitives[0]; }
+
+std::vector<glm::vec4> PosedTangents(const Scene& scene, const PoseSettings& settings = {}) {
+  return Pose(scene, settings).drawables[0].geometry->tangents;
+}
+
+TEST(PoseForAnisotropy, TangentsFollowTheFirstUvSet) {
+  Scene scene = AnisotropicTriangle();
+  Only(scene).tex_coords = {{{0, 0}, {0, 1}, {-1, 0}}, {{0, 0}, {1, 0}, {0, 1}}};  // u runs along -y
+  const std::vector<glm::vec4> tangents = PosedTangents(scene);
+  ASSERT_EQ(tangents.size(), 3u);
+  for (const glm::vec4& t : tangents) EXPECT_LT(Distance(glm::dvec3(t), {0, -1, 0}), 1e-6);
+  EXPECT_TRUE(scene.meshes[0].primitives[0].tangents.empty());
+
+  // A texture in tangent space names another set, and so decides.
+  AddNormalMap(scene);
+  scene.materials[0].anisotropy_strength = 0.5f;
+  scene.materials[0].normal_texture.tex_coord = 1;
+  for (const glm::vec4& t : PosedTangents(scene)) EXPECT_LT(Distance(glm::dvec3(t), {1, 0, 0}), 1e-6);
+  std::swap(scene.materials[0].normal_texture, scene.materials[0].anisotropy_texture);
+  for (const glm::vec4& t : PosedTangents(scene)) EXPECT_LT(Distance(glm::dvec3(t), {1, 0, 0}), 1e-6);
+  // One without a picture is none.
+  scene.textures[0].image = -1;
+  for (const glm::vec4& t : PosedTangents(scene)) EXPECT_LT(Distance(glm::dvec3(t), {0, -1, 0}), 1e-6);
+}
+
+TEST(PoseForAnisotropy, WithoutUvsTangentsArePerpendicularToNormals) {
+  for (const bool empty_set : {false, true}) {
+    Scene scene = AnisotropicTriangle();
+    if (empty_set) Only(scene).tex_coords.resize(1);
+    const std::vector<glm::vec4> tangents = PosedTangents(scene);
+    ASSERT_EQ(tangents.size(), 3u);
+    for (const glm::vec4& t : tangents) {
+      EXPECT_NEAR(glm::length(glm::vec3(t)), 1.0f, 1e-6f);
+      EXPECT_NEAR(t.z, 0.0f, 1e-6f);
+      EXPECT_EQ(t, tangents[0]) << "one plane has one direction";
+    }
+    Only(scene).normals.clear();  // flat
+    const PosedScene posed = Pose(scene, {});
+    const Primitive& flat = *posed.drawables[0].geometry;
+    ASSERT_EQ(flat.tangents.size(), 3u);
+    for (std::size_t v = 0; v < 3; ++v) {
+      EXPECT_NEAR(glm::dot(glm::vec3(flat.tangents[v]), flat.normals[v]), 0.0f, 1e-6f);
+    }
+  }
+}
+
+TEST(PoseForAnisotropy, TheFilesTangentsStay) {
+  Scene scene = AnisotropicTriangle();
+  Only(scene).tangents.assign(3, {0.6f, 0.8f, 0, -1});
+  EXPECT_EQ(PosedTangents(scene), Only(scene).tangents);
+  EXPECT_TRUE(Pose(scene, {}).owned.empty());
+  EXPECT_NE(PosedTangents(scene, {.generate_tangents = true}), Only(scene).tangents);
+}
+
+TEST(PoseForAnisotropy, NothingIsMadeWhereNothingReadsIt) {
+  const Scene scene = AnisotropicTriangle();
+  PoseSettings without;
+  without.tangent_space_textures &= ~kAnisotropy;
+  EXPECT_TRUE(PosedTangents(scene, without).empty());
+  const auto expect_none = [](Scene changed, const char* why) {
+    const PosedScene posed = Pose(changed, {});
+    EXPECT_TRUE(posed.owned.empty()) << why;
+    EXPECT_TRUE(posed.needs_tangents.empty()) << why;
+  };
+  Scene changed = scene;
+  changed.materials[0].anisotropy_strength = 0.0f;
+  changed.materials[0].anisotropy_rotation = 1.0f;
+  expect_none(changed, "no strength");
+  changed = scene;
+  changed.materials[0].model = ShadingModel::Unlit;
+  expect_none(changed, "unlit");
+  for (const Topology topology : {Topology::Points, Topology::Lines, Topology::LineLoop, Topology::LineStrip}) {
+    changed = scene;
+    Only(changed).topology = topology;
+    Only(changed).indices =
+        topology == Topology::Lines ? std::vector<std::uint32_t>{0, 1} : std::vector<std::uint32_t>{};
+    expect_none(changed, "points and lines have none");
+  }
+}
+
+TEST(PoseForAnisotropy, DeformedSurfacesTakeTheirTangentsAlong) {
+  Scene scene = AnisotropicTriangle();
+  Only(scene).tex_coords = {{{0, 0}, {1, 0}, {0, 1}}};
+  Only(scene).joints = {{glm::u16vec4(0), glm::u16vec4(0), glm::u16vec4(0)}};
+  Only(scene).weights = {{glm::vec4(1, 0, 0, 0), glm::vec4(1, 0, 0, 0), glm::vec4(1, 0, 0, 0)}};
+  scene.skins.resize(1);
+  scene.skins[0].joints = {1};
+  scene.nodes[0].skin = 0;
+  scene.nodes.resize(2);
+  scene.nodes[1].transform.rotation = RotationAbout({0, 0, 1}, kTestPi / 2);
+  const PosedScene posed = Pose(scene, {});
+  const Drawable& drawable = posed.drawables[0];
+  ASSERT_EQ(drawable.geometry->tangents.size(), 3u);
+  for (const glm::vec4& t : drawable.geometry->tangents) {
+    const glm::dvec3 world = glm::dmat3(drawable.world_from_mesh) * glm::dvec3(t);
+    EXPECT_LT(Distance(world, {0, 1, 0}), 1e-6);
+  }
 }
 
 }  // namespace

@@ -92,7 +92,7 @@ void ExpectRounding(const Films& films, const std::string& name, const Bounds& b
 std::string Bundled(const char* name) { return std::string(FACET_SOURCE_DIR "/assets/scenes/") + name + ".glb"; }
 
 TEST(DoubleShader, BundledScenesDifferByRoundingAlone) {
-  for (const char* name : {"animated", "material_grid", "room", "showcase"}) {
+  for (const char* name : {"animated", "gallery", "material_grid", "materials", "room", "showcase"}) {
     const Scene scene = LoadGltf(Bundled(name)).scene;
     RenderSettings settings;
     settings.width = settings.height = 96;

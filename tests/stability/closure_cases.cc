@@ -53,7 +53,9 @@ Vec3<T> As(const Vec3<float>& v) {
 template <class T>
 T Evaluate(const MaterialInputs<T>& in, const Vec3<float>& view, const Vec3<float>& light) {
   const LightingView<T> lighting(NoLighting());
-  return lanes::EvaluateClosure(lanes::MakeClosure(in, As<T>(view), lighting), As<T>(light), lighting).y;
+  return lanes::EvaluateClosure(lanes::MakeClosure<T, lanes::kCoreLobes>(in, As<T>(view), lighting), As<T>(light),
+                                lighting)
+      .y;
 }
 
 // Calls visit(base, metallic, roughness, view, light) for all ends of all parameters.
@@ -117,7 +119,7 @@ double Albedo(const MaterialInputs<T>& in, float n_dot_v) {
   const double sin_v = std::sqrt(1.0 - double(n_dot_v) * double(n_dot_v));
   const auto closure = lanes::MakeClosure(in, Vec3<T>{T(sin_v), T(0), T(n_dot_v)}, lighting);
   constexpr int kPolar = 220, kAzimuth = 48;
-  const double low = std::log(double(closure.specular.alpha) * 0.02), high = std::log(3e4),
+  const double low = std::log(double(closure.microfacets.alpha) * 0.02), high = std::log(3e4),
                step = (high - low) / kPolar;
   double sum = 0.0;
   for (int i = 0; i < kPolar; ++i) {

@@ -26,7 +26,7 @@ T Evaluate(double roughness, const Vec3<float>& view, const Vec3<float>& light) 
   in.perceptual_roughness = T(float(roughness));
   in.normal = {T(0), T(0), T(1)};
   const Vec3<T> v{T(view.x), T(view.y), T(view.z)}, l{T(light.x), T(light.y), T(light.z)};
-  return lanes::EvaluateClosure(lanes::MakeClosure(in, v, lighting), l, lighting).y;
+  return lanes::EvaluateClosure(lanes::MakeClosure<T, lanes::kCoreLobes>(in, v, lighting), l, lighting).y;
 }
 
 // The highlight of a metal, around the mirrored direction. Its peak is D n.l V = 1 / (pi alpha^2) / (4 n.v) at most: at

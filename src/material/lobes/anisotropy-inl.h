@@ -1,8 +1,8 @@
 // Microfacets that are rougher along the tangent than across it (KHR_materials_anisotropy): alpha_t = mix(alpha, 1,
-// strength^2) along the tangent, alpha_b = alpha across it.
-//
-// The albedo tables are those of equal roughness; an effective roughness is looked up in them, which depends on the
-// direction of the view (or light) around the normal.
+// strength^2) along the tangent, alpha_b = alpha across it. Their albedo depends on the azimuth, too, and has a table
+// of its own (light/anisotropic_dfg.h). The albedo of surfaces that are equally rough in all directions, at whatever
+// mean roughness, would be off by 0.3: at alpha_t 1 and alpha_b 0.01, 0.53 of the light is reflected to a view across
+// the tangent at 5, 60 and 85 degrees from the normal, but 0.53, 0.65 and 0.87 to one along it.
 
 #if defined(FACET_MATERIAL_LOBES_ANISOTROPY_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef FACET_MATERIAL_LOBES_ANISOTROPY_INL_H_
@@ -40,14 +40,16 @@ struct AnisotropicMicrofacets {
     alpha_t = Mix(alpha_b, T(1.0f), strength * strength);
   }
 
-  // The roughness of the surface that loses about as much energy, seen from `direction` (unit).
-  HWY_INLINE T AlbedoRoughness(const Vec3<T>& direction) const {
-    const T t = Dot(tangent, direction), b = Dot(bitangent, direction);
-    const T n2 = Max(T(1.0f) - t * t - b * b, T(0.0f)) * T(0.5f);
-    const T alpha2 = alpha_t * alpha_t * (t * t + n2) + alpha_b * alpha_b * (b * b + n2);
-    return Sqrt(Sqrt(alpha2));
+  // The albedo for light from, or to, a direction. `cosine`: its cosine with the normal. Light from behind has the
+  // albedo of the direction that is mirrored to the front, whose cosine with the tangent is the same.
+  template <class Lighting>
+  HWY_INLINE SpecularAlbedo<T> Albedo(const Vec3<T>& direction, T cosine, const Lighting& lighting) const {
+    return lighting.AnisotropicDfg(cosine, Dot(tangent, direction), perceptual_roughness, strength);
   }
-  HWY_INLINE T AverageAlbedoRoughness() const { return Sqrt(Sqrt((alpha_t * alpha_t + alpha_b * alpha_b) * T(0.5f))); }
+  template <class Lighting>
+  HWY_INLINE SpecularAlbedo<T> AverageAlbedo(const Lighting& lighting) const {
+    return lighting.AnisotropicDfgAverage(perceptual_roughness, strength);
+  }
 
   HWY_INLINE T Single(const SurfaceView<T>& at, const Vec3<T>& light, const Incidence<T>& from) const {
     const T distribution = DistributionGgxAnisotropic(Dot(tangent, from.half), Dot(bitangent, from.half),

@@ -35,12 +35,12 @@ struct DiffuseTransmissionLobe {
   }
 
   // The BTDF times the cosine, for light from behind. `behind`: the cosine of the light with the normal that points
-  // away from the viewer. `roughness`: that of the specular lobe's albedo.
-  template <class Lighting>
-  HWY_INLINE Vec3<T> Direct(const DiffuseLobe<T>& diffuse, const SpecularLobe<T>& above, T behind, T roughness,
-                            const Lighting& lighting) const {
+  // away from the viewer. `albedo_at`: of a cosine, the specular lobe's albedo for the light's direction.
+  template <class AlbedoAt>
+  HWY_INLINE Vec3<T> Direct(const DiffuseLobe<T>& diffuse, const SpecularLobe<T>& above, T behind,
+                            const AlbedoAt& albedo_at) const {
     const T cosine = Clamp(behind, T(0.0f), T(1.0f));
-    const T left_for_light = above.EnergyLeftByDielectric(lighting.Dfg(cosine, roughness));
+    const T left_for_light = above.EnergyLeftByDielectric(albedo_at(cosine));
     return color * (diffuse.left_for_view * left_for_light * diffuse.scale * cosine);
   }
 

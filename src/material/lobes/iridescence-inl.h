@@ -31,13 +31,16 @@ struct ThinFilm {
       : weight_(Clamp(in.factor, T(0.0f), T(1.0f))), cosine_(n_dot_v) {
     // A film of thickness 0 is none, and becomes one continuously (the extension's text).
     const T fade = Clamp(in.thickness_nm * T(1.0f / 0.03f), T(0.0f), T(1.0f));
-    ior_ = Mix(T(1.0f), Max(in.ior, T(1.0f)), fade * fade * (T(3.0f) - T(2.0f) * fade));
-    const T sin2 = (T(1.0f) - cosine_ * cosine_) / (ior_ * ior_);
-    const T inside2 = Max(T(1.0f) - sin2, T(0.0f));
+    // Less 1, which keeps the digits of indices close to 1.
+    const T excess = (Max(in.ior, T(1.0f)) - T(1.0f)) * (fade * fade * (T(3.0f) - T(2.0f) * fade));
+    ior_ = T(1.0f) + excess;
+    // The squared cosine within the film, 1 - (1 - cosine^2) / ior^2, where that does not cancel.
+    const T inverse = T(1.0f) / ior_, refracted = cosine_ * inverse;
+    const T inside2 = excess * inverse * (T(1.0f) + inverse) + refracted * refracted;
     inside_ = Sqrt(inside2);
     // Beyond a millimetre nothing interferes; the bound keeps the phase finite.
     path_nm_ = Min(T(2.0f) * ior_ * Min(in.thickness_nm, T(1e6f)) * inside_, T(1e6f));
-    const T root = (ior_ - T(1.0f)) / (ior_ + T(1.0f));
+    const T root = excess / (ior_ + T(1.0f));
     first_ = FresnelSchlick(root * root, cosine_);
   }
 
@@ -48,11 +51,12 @@ struct ThinFilm {
   }
 
  private:
-  // Undoes Schlick's rise: the F0 that gives this reflectance at the angle of the view.
+  // The F0 with which Schlick's Fresnel gives this reflectance at the angle of the view. In the last half degree before
+  // grazing, where Schlick's term rises to 1 whatever F0 is, the film fades, because F0 would be nothing but rounding.
   HWY_INLINE T Fold(T base, T reflectance) const {
-    const T w = SchlickWeight(cosine_);
-    const T rest = Max(T(1.0f) - w, T(1e-4f));
-    return Mix(base, Clamp((reflectance - w) / rest, T(0.0f), T(1.0f)), weight_);
+    constexpr float kLeastRest = 0.05f;
+    const T rest = Max(T(1.0f) - SchlickWeight(cosine_), T(kLeastRest));
+    return Clamp(base + weight_ * (reflectance - FresnelSchlick(base, cosine_)) / rest, T(0.0f), T(1.0f));
   }
 
   // At the angle of the view, as a colour in [0, 1].

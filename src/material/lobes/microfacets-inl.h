@@ -40,6 +40,16 @@ struct Microfacets {
     return DistributionGgx(at.normal, from.half, alpha) * VisibilitySmith(from.n_dot_l, at.n_dot_v, alpha);
   }
 
+  // The albedo for light from, or to, a direction. `cosine`: its cosine with the normal.
+  template <class Lighting>
+  HWY_INLINE SpecularAlbedo<T> Albedo(const Vec3<T>& /*direction*/, T cosine, const Lighting& lighting) const {
+    return lighting.Dfg(cosine, perceptual_roughness);
+  }
+  template <class Lighting>
+  HWY_INLINE SpecularAlbedo<T> AverageAlbedo(const Lighting& lighting) const {
+    return lighting.DfgAverage(perceptual_roughness);
+  }
+
   // The dominant direction of the reflection. It lies between the mirror direction and the normal. Not normalised.
   HWY_INLINE Vec3<T> DominantDirection(const SurfaceView<T>& at) const {
     const Vec3<T> mirror = at.normal * (T(2.0f) * Dot(at.normal, at.view)) - at.view;

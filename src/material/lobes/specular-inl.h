@@ -41,8 +41,9 @@ struct SpecularLobe {
 
   HWY_INLINE SpecularLobe() {}  // for a lobe that a material does not have
 
-  // `metal`: its F0. `metallic`: in [0, 1]. `is_white_at_grazing`: both have an F90 of 1.
-  HWY_INLINE SpecularLobe(const Interface<T>& base, const Vec3<T>& metal, T metallic, bool is_white_at_grazing,
+  // `metal`: its F0. `metallic`: in [0, 1]. `is_default`: the base is the dielectric of core glTF, whose F0 is grey and
+  // whose F90 is 1.
+  HWY_INLINE SpecularLobe(const Interface<T>& base, const Vec3<T>& metal, T metallic, bool is_default,
                           SpecularAlbedo<T> view_albedo, SpecularAlbedo<T> average) {
     albedo = view_albedo;
     average_albedo = average;
@@ -50,8 +51,8 @@ struct SpecularLobe {
     const T dielectric = T(1.0f) - metallic;
     f0 = {base.f0.x * dielectric + metal.x * metallic, base.f0.y * dielectric + metal.y * metallic,
           base.f0.z * dielectric + metal.z * metallic};
-    f90 = is_white_at_grazing ? T(1.0f) : base.f90 * dielectric + metallic;
-    dielectric_f0 = Max(Max(base.f0.x, base.f0.y), base.f0.z);
+    f90 = is_default ? T(1.0f) : base.f90 * dielectric + metallic;
+    dielectric_f0 = is_default ? base.f0.x : MaxComponent(base.f0);
     dielectric_f90 = base.f90;
     dielectric_multiple_fresnel = MultipleScatteringFresnel(dielectric_f0, e_avg, base.f90);
     const auto of_mixture = [&](T of_dielectric, T of_metal) HWY_ATTR {

@@ -1,0 +1,12 @@
+// The albedo tables that only some materials need.
+#pragma once
+
+namespace facet {
+
+// Those that the materials of a frame need besides the DfgTable, which all have.
+struct AlbedoTables {
+  bool sheen = false;            // SheenTable
+  bool anisotropic_dfg = false;  // AnisotropicDfgTable
+};
+
+}  // namespace facet
