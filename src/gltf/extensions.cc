@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <string_view>
 
 #include "material/models/models.h"
 #include "material/parameters.h"
@@ -16,8 +17,9 @@ bool IsSupported(const std::string& extension) {
       // These only describe the data, so ignoring them is enough to support them.
       "FB_ngon_encoding", "KHR_xmp", "KHR_xmp_json_ld"};
   bool supported = std::find(std::begin(kSupported), std::end(kSupported), extension) != std::end(kSupported);
-  const auto compare = [&](const char* name) {
-    supported = supported || (name != nullptr && IsExtension(name) && extension == name);
+  const auto compare = [&](const char* group) {  // or an object in one
+    const std::string_view name = group != nullptr ? group : "";
+    supported = supported || (IsExtension(name) && extension == name.substr(0, name.find('.')));
   };
   for (const ModelInfo& model : kModels) compare(model.gltf_extension);
   ForEachParameter([&](const auto& parameter) { compare(parameter.gltf_group); });

@@ -8,6 +8,7 @@
 #include "base/input_file.h"
 #include "cli/program.h"
 #include "cli/tiny_scene.h"
+#include "facet/settings.h"
 #include "image/codec.h"
 
 namespace facet::test {

@@ -139,6 +139,36 @@ TEST(Explain, NamesAndCountsWhatTheFrameUses) {
   }
 }
 
+TEST(Explain, LayersHaveTheirWordsAndCosts) {
+  Scene scene;
+  Material material;
+  material.roughness_factor = 0.4f;
+  material.clearcoat_factor = 1.0f;
+  material.clearcoat_roughness_factor = 0.5f;
+  material.clearcoat_roughness_texture =
+      Ref(AddTexture(scene, MakeImage(8, 8, [](int x, int) { return glm::u8vec4(20 * x, 20 * x, 0, 255); })));
+  material.anisotropy_strength = 0.5f;
+  Add(scene, Sphere(1.0f, 8, 12), AddMaterial(scene, material));
+  RenderSettings settings = Settings(32, 32, 1, Perspective(1.0, {0, 0, 3}));
+  settings.environment = ConstantEnvironment(1.0f);
+  const Explanation e = Explain(scene, settings);
+  ASSERT_EQ(e.materials.size(), 1u);
+  EXPECT_EQ(e.materials[0].features, (std::vector<std::string>{"clearcoat", "anisotropy"}));
+  EXPECT_EQ(Costed(e),
+            (std::set<std::string>{"clearcoat", "anisotropy", "anisotropic-filtering", "environment-light"}));
+  EXPECT_EQ(e.costs.size(), 4u) << "that of the surface and that of the filter have names of their own";
+  EXPECT_EQ(CostOf(e, "anisotropy")->option, "--without anisotropy");
+  EXPECT_EQ(CostOf(e, "anisotropic-filtering")->option, "--max-anisotropy 1");
+  ASSERT_EQ(e.textures.size(), 1u);
+  EXPECT_EQ(e.textures[0].roles, std::vector<std::string>{"clearcoat-roughness"});
+  ASSERT_TRUE(e.textures[0].kept);
+  EXPECT_EQ(e.textures[0].kept->channels, 1) << "green alone";
+  // The factor takes its textures along, and tangents are made for anisotropy.
+  EXPECT_EQ(CostOf(e, "clearcoat")->bytes, std::int64_t(e.textures[0].kept->bytes));
+  EXPECT_EQ(CostOf(e, "anisotropy")->bytes, std::int64_t(e.first.pose_bytes));
+  EXPECT_GT(e.first.pose_bytes, 0u);
+}
+
 // Of a texture of emission: the share that nothing reads. The same image as base colour is read everywhere.
 TEST(Explain, TheShareOfEmissionThatIsBlack) {
   for (const bool as_color : {false, true}) {
