@@ -42,7 +42,9 @@ class TileWorker {
     blended_.list.Clear();
     const bool touched = visibility_.Begin(column, first_row + row, t);
     const bool is_known = in_.backdrop != nullptr && output.planes.empty() && !visibility_.HasBlended();
-    is_known ? in_.backdrop->GetTile(visibility_.Buffers(), pixels_) : DrawOpaque(touched, counts);
+    TileCounts again;  // not counted: of fragments that were shaded for the backdrop
+    is_known ? in_.backdrop->GetTile(visibility_.Buffers(), pixels_)
+             : DrawOpaque(touched, in_.backdrop != nullptr ? again : counts);
     in_.background.CompositeUnder(visibility_.Buffers(), pixels_);
     if (visibility_.HasBlended()) Blend(counts);
     const std::size_t first =
@@ -178,7 +180,10 @@ void CollectBackdrop(const TilePassInput& input, int first_row, int end_row, Bac
     for (std::size_t i = begin; i < end; ++i) worker->Run(i, first_row, backdrop, counts[i]);
     pool.Return(std::move(worker));
   });
-  for (const TileCounts& c : counts) stats.fragments_shaded += c.shaded;
+  for (const TileCounts& c : counts) {
+    stats.fragments_shaded += c.shaded;
+    stats.non_finite_fragments += c.non_finite;
+  }
 }
 
 void RunTiles(const TilePassInput& input, int first_row, int end_row, const TileOutput& output, RenderStats& stats) {
