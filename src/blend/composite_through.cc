@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "frame/constants.h"
+
 namespace facet {
 namespace {
 
@@ -15,9 +17,14 @@ float RoughnessOfSpread(float spread) {
   return std::sqrt(alpha);
 }
 
+// Shifts below a unit of the grid on which triangles stand are none: whether a sample shows its own opaque surface must
+// not depend on rounding.
 bool Bends(const SeenThroughFragments& f, std::uint32_t i) {
+  constexpr float kLeast = 1.0f / kSubpixelScale;
   bool bends = f.blur[i] > 0.0f;
-  for (int c = 0; c < 3; ++c) bends = bends || f.shift_x[c][i] != 0.0f || f.shift_y[c][i] != 0.0f;
+  for (int c = 0; c < 3; ++c) {
+    bends = bends || std::fabs(f.shift_x[c][i]) >= kLeast || std::fabs(f.shift_y[c][i]) >= kLeast;
+  }
   return bends;
 }
 

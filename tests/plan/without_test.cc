@@ -323,6 +323,7 @@ TEST(Without, EnvironmentLightLeavesTheBackground) {
   Scene scene = RichScene();
   RenderSettings settings = SettingsFor(1);
   TakeOut(Feature::Blending, scene, settings);
+  TakeOut(Feature::Transmission, scene, settings);  // through which the background is seen
   settings.background = Background::Environment;
   const Film lit = Render(scene, settings);
   settings.without = {Feature::EnvironmentLight};

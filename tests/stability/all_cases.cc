@@ -4,7 +4,7 @@ namespace facet::stability {
 
 std::vector<Case> AllCases() {
   std::vector<Case> all;
-  for (const auto& family : {BrdfCases(), ClosureCases(), LayerCases(), PlacementCases(), TriangleCases(),
+  for (const auto& family : {BrdfCases(), ClosureCases(), LayerCases(), GlassCases(), PlacementCases(), TriangleCases(),
                              TransformCases(), TextureCases(), LightCases(), FilmCases()}) {
     all.insert(all.end(), family.begin(), family.end());
   }

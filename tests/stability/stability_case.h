@@ -51,6 +51,7 @@ struct Case {
 std::vector<Case> BrdfCases();
 std::vector<Case> ClosureCases();
 std::vector<Case> LayerCases();
+std::vector<Case> GlassCases();
 std::vector<Case> PlacementCases();
 std::vector<Case> TriangleCases();
 std::vector<Case> TransformCases();
