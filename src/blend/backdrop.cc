@@ -20,6 +20,13 @@ constexpr int kFinerLevels = 2;
 // The standard deviation of a cubic B-spline over texels that are themselves means: sqrt(1/3 + 1/12) texels.
 constexpr float kSplineDeviation = 0.645497f;
 
+// The share of a texel at `place` of a level that lies inside of the picture, along one axis of `size` pixels: the last
+// one may stick out.
+float ShareInside(std::size_t level, int place, int size) {
+  const int width = 1 << level;
+  return static_cast<float>(std::min(size - (place << level), width)) / static_cast<float>(width);
+}
+
 }  // namespace
 
 Backdrop::Backdrop(int width, int height) {
@@ -61,6 +68,23 @@ void Backdrop::GetTile(const TileBuffers& at, std::vector<glm::vec4>& pixels) co
   }
 }
 
+float Backdrop::AreaInside(std::size_t level, int column, int row) const {
+  return ShareInside(level, column, levels_[0].width) * ShareInside(level, row, levels_[0].height);
+}
+
+template <class Visit>
+void Backdrop::ForEachPart(std::size_t level, int column, int row, const Visit& visit) const {
+  const Level& parts = levels_[level - 1];
+  const int right = std::min(2 * column + 2, parts.width), bottom = std::min(2 * row + 2, parts.height);
+  float area = 0.0f;
+  for (int j = 2 * row; j < bottom; ++j) {
+    for (int i = 2 * column; i < right; ++i) area += AreaInside(level - 1, i, j);
+  }
+  for (int j = 2 * row; j < bottom; ++j) {
+    for (int i = 2 * column; i < right; ++i) visit(i, j, AreaInside(level - 1, i, j) / area);
+  }
+}
+
 void Backdrop::Finish() {
   for (std::size_t l = 1; l < levels_.size(); ++l) {
     const Level from = levels_[l - 1], to = levels_[l];
@@ -68,19 +92,12 @@ void Backdrop::Finish() {
       for (std::size_t y = begin; y < end; ++y) {
         for (int x = 0; x < to.width; ++x) {
           Texel sum{glm::vec4(0.0f), kNothing, 0.0f};
-          float count = 0.0f;
-          for (int j = 0; j < 2; ++j) {
-            for (int i = 0; i < 2; ++i) {
-              const int column = 2 * x + i, row = 2 * int(y) + j;
-              if (column >= from.width || row >= from.height) continue;
-              const Texel& t = texels_[from.offset + std::size_t(row) * std::size_t(from.width) + std::size_t(column)];
-              sum.light += t.light;
-              sum.depth += t.depth;
-              sum.nearest = std::max(sum.nearest, t.nearest);
-              count += 1.0f;
-            }
-          }
-          sum.light /= count, sum.depth /= count;
+          ForEachPart(l, x, int(y), [&](int column, int row, float share) {
+            const Texel& t = texels_[from.offset + std::size_t(row) * std::size_t(from.width) + std::size_t(column)];
+            sum.light += t.light * share;
+            sum.depth += t.depth * share;
+            sum.nearest = std::max(sum.nearest, t.nearest);
+          });
           texels_[to.offset + y * std::size_t(to.width) + std::size_t(x)] = sum;
         }
       }
@@ -99,12 +116,8 @@ void Backdrop::AddTexel(std::size_t level, int column, int row, float weight, fl
     return;
   }
   if (level == 0 || finer == 0) return;
-  const Level& parts = levels_[level - 1];
-  const int right = std::min(2 * column + 2, parts.width), bottom = std::min(2 * row + 2, parts.height);
-  const float part = weight / static_cast<float>((right - 2 * column) * (bottom - 2 * row));
-  for (int j = 2 * row; j < bottom; ++j) {
-    for (int i = 2 * column; i < right; ++i) AddTexel(level - 1, i, j, part, nearest, finer - 1, sum);
-  }
+  ForEachPart(level, column, row,
+              [&](int i, int j, float part) { AddTexel(level - 1, i, j, weight * part, nearest, finer - 1, sum); });
 }
 
 void Backdrop::AddWeighted(std::size_t level, int column, int row, int count, const float* weights_x,
@@ -114,7 +127,7 @@ void Backdrop::AddWeighted(std::size_t level, int column, int row, int count, co
     if (row + j < 0 || row + j >= at.height) continue;
     for (int i = 0; i < count; ++i) {
       if (column + i < 0 || column + i >= at.width) continue;
-      const float weight = weights_x[i] * weights_y[j] * share;
+      const float weight = weights_x[i] * weights_y[j] * share * AreaInside(level, column + i, row + j);
       sum.inside += weight;
       AddTexel(level, column + i, row + j, weight, nearest, kFinerLevels, sum);
     }
@@ -162,10 +175,13 @@ Backdrop::Mean Backdrop::Around(float x, float y, float deviation, float nearest
       if (next > 0.0f) AddSpline(level + 1, x, y, nearest, next, sum);
     }
   }
-  constexpr float kLeast = 1e-3f;  // below that it would be nothing but rounding error
-  if (sum.accepted < kLeast) {
-    sum.accepted = 0.0f;
-    return sum;
+  // Smaller shares would be nothing but rounding error.
+  constexpr float kLeastInside = 1e-6f, kLeastAccepted = 1e-3f;
+  if (!(sum.inside > kLeastInside)) return {};
+  if (sum.accepted <= kLeastAccepted * sum.inside) {
+    Mean none;
+    none.inside = sum.inside;
+    return none;
   }
   sum.light /= sum.accepted, sum.depth /= sum.accepted;
   return sum;

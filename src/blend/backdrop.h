@@ -17,8 +17,8 @@ class Backdrop {
   // Charges its memory to the current budget. Throws Error(OutOfMemory).
   Backdrop(int width, int height);
 
-  // `pixels`: the tile's opaque surfaces, premultiplied by their coverage, tile_size a row; `tile`: their depths; null:
-  // nothing is there.
+  // `pixels`: the tile's opaque surfaces, premultiplied by their coverage, tile_size a row. `at`: where the tile is,
+  // and their depths; `is_empty`: there are none.
   void SetTile(const TileBuffers& at, bool is_empty, const std::vector<glm::vec4>& pixels);
   // The pixels that SetTile() was given.
   void GetTile(const TileBuffers& at, std::vector<glm::vec4>& pixels) const;
@@ -45,6 +45,11 @@ class Backdrop {
     std::size_t offset;
   };
   // Adds a texel. Where a part of it is too near, adds those of its parts, in finer levels, that are not.
+  // The share of a texel's area that lies inside of the picture.
+  float AreaInside(std::size_t level, int column, int row) const;
+  // Calls visit(column, row, share of the area) for the texels of the finer level that one is made of.
+  template <class Visit>
+  void ForEachPart(std::size_t level, int column, int row, const Visit& visit) const;
   void AddTexel(std::size_t level, int column, int row, float weight, float nearest, int finer, Mean& sum) const;
   // Adds count x count weighted texels.
   void AddWeighted(std::size_t level, int column, int row, int count, const float* weights_x, const float* weights_y,

@@ -53,7 +53,7 @@ class MaterialReader {
   // The nearest number of the range, with a warning if it is another one.
   static float WithinRange(double value, ParameterRange range, const char* name, const Place& where) {
     if (value == double{range.exception}) return static_cast<float>(value);
-    const bool is_exception = range.less_is_exception && value < double{range.low};
+    const bool is_exception = range.zero_is_exception && value <= 0.0;
     const double within =
         is_exception ? double{range.exception} : std::min(std::max(value, double{range.low}), double{range.high});
     if (within != value) {

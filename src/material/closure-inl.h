@@ -202,7 +202,8 @@ HWY_INLINE Vec3<T> EvaluateEnvironment(const Closure<T, kPossible>& c, const Mat
   return radiance;
 }
 
-// The emission of the base that the layers above let pass.
+// The emission of the base that the clear coat lets pass. (Sheen scatters light that comes from outside; by the texts
+// of the extensions it does not dim emission.)
 template <class T, MaterialFeatures kPossible>
 HWY_INLINE Vec3<T> EmissionThroughLayers(const Closure<T, kPossible>& c, const MaterialInputs<T>& in) {
   return c.Has(kClearcoat) ? in.emissive * c.clearcoat.EnergyLeft() : in.emissive;

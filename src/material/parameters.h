@@ -14,7 +14,7 @@ namespace facet {
 struct ParameterRange {
   float low = 0.0f, high = 1.0f;
   float exception = std::numeric_limits<float>::quiet_NaN();  // one more value that is allowed; NaN: none
-  bool less_is_exception = false;  // loaders read numbers below the range as the exception, and not as `low`
+  bool zero_is_exception = false;  // loaders read 0 and less as the exception, and not as `low`
 };
 
 template <class Value>
@@ -43,7 +43,7 @@ constexpr void ForEachParameter(const Visit& visit) {
   constexpr ParameterRange kShare{0.0f, 1.0f}, kPositive{0.0f, kInfinity}, kAny{-kInfinity, kInfinity};
   constexpr ParameterRange kIorRange{1.0f, kInfinity, 0.0f};
   // Exporters that write a distance of 0 mean that nothing is absorbed.
-  constexpr ParameterRange kDistance{kSmallest, kInfinity, kInfinity, /*less_is_exception=*/true};
+  constexpr ParameterRange kDistance{kSmallest, kInfinity, kInfinity, /*zero_is_exception=*/true};
   constexpr const char* kPbr = "pbrMetallicRoughness";
   const auto texture = [&](Slot slot) {
     const SlotInfo& info = InfoOf(slot);

@@ -57,6 +57,10 @@ class Planner {
         index >= 0 && i < settings_.material_shaders.size() && settings_.material_shaders[i] != nullptr;
     f.shader = has_own ? settings_.material_shaders[i] : settings_.shader;
     f.is_seen_through = f.Has(kTransmission) && (f.shader == nullptr || f.shader->Transmits());
+    if (!f.is_seen_through) {
+      // A user's shader that knows nothing of what is behind a surface gets the material without transmission.
+      f.features &= ~(kTransmission | kVolume | kDispersion | BitOf(Slot::Transmission) | BitOf(Slot::Thickness));
+    }
     ForEachSlot(f.features, [&](Slot slot) { BindTexture(material, slot, planned); });
     return planned;
   }

@@ -188,6 +188,8 @@ ExactTracer::Seen ExactTracer::Along(Way way, Random& random) const {
   for (;;) {
     const auto hit = rays_->Nearest(way.ray, [&](const auto& h) { return IsSeen(h, way.ray, inside); });
     if (!hit) {
+      // A medium that has no end lets nothing pass that it absorbs at all.
+      if (inside) rest *= way.media.Passing(1e30);
       const bool is_nothing = background_ == nullptr;
       add(is_nothing ? Seen{glm::dvec3(0.0), glm::dvec3(1.0)}
                      : Seen{background_->Toward(way.ray.direction).radiance, glm::dvec3(0.0)},

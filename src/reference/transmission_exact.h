@@ -31,7 +31,7 @@ struct ExactEntry {
   // Of what is seen through it: base colour times transmission, without what is reflected here and by the layers above.
   glm::dvec3 tint{0.0};
   glm::dvec3 absorption{0.0};  // of the medium, per metre
-  double thickness = 0.0;      // of the medium as stated, in units of the mesh
+  double thickness = 0.0;      // of the medium as stated, in metres
   // The light of punctual lights behind the surface that passes it, by the closure's lobe: not traced.
   glm::dvec3 punctual{0.0};
 };

@@ -43,7 +43,8 @@ struct PosedLight {
   glm::dvec3 direction_world{0.0, 0.0, -1.0};  // unit, in which it shines
 };
 
-// Geometry of the scene without tangents that is drawn with a normal map, so it needs them before it is shaded.
+// Geometry of the scene without tangents that is drawn with a texture in tangent space, or anisotropic, so it needs
+// them before it is shaded.
 struct GeometryWithoutTangents {
   std::vector<std::size_t> drawables;  // indices of those that draw it, all with one material
   TextureRef normal_map;

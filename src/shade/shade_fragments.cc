@@ -20,15 +20,15 @@ namespace HWY_NAMESPACE {
   void Name##Kernel(const ShadeTask& task) {                      \
     Surface<Float> surfaces[2];                                   \
     ShadePackets(task, ModelWith<Name, Name::kCore>(), surfaces); \
-  }                                                               \
-  void Layered##Name##Kernel(const ShadeTask& task) {             \
-    Surface<Float> surfaces[2];                                   \
-    ShadePackets(task, Name(), surfaces);                         \
   }
 FACET_SHADING_MODELS(FACET_MODEL_KERNEL)
 #undef FACET_MODEL_KERNEL
 
 #define FACET_MODEL_KERNEL(Name)                                \
+  void Layered##Name##Kernel(const ShadeTask& task) {           \
+    Surface<Float> surfaces[2];                                 \
+    ShadePackets(task, Name(), surfaces);                       \
+  }                                                             \
   void SeenThrough##Name##Kernel(const ShadeTask& task) {       \
     Surface<Float> surfaces[2];                                 \
     ShadePackets(task, ModelSeenThrough<Name>{task}, surfaces); \
@@ -104,35 +104,40 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace facet {
 
-#define FACET_MODEL_EXPORT(Name) \
-  FACET_EXPORT(Name##Kernel);    \
-  FACET_EXPORT(Layered##Name##Kernel);
+#define FACET_MODEL_EXPORT(Name) FACET_EXPORT(Name##Kernel);
 FACET_SHADING_MODELS(FACET_MODEL_EXPORT)
 #undef FACET_MODEL_EXPORT
-#define FACET_MODEL_EXPORT(Name) FACET_EXPORT(SeenThrough##Name##Kernel);
+#define FACET_MODEL_EXPORT(Name)       \
+  FACET_EXPORT(Layered##Name##Kernel); \
+  FACET_EXPORT(SeenThrough##Name##Kernel);
 FACET_MODELS_SEEN_THROUGH(FACET_MODEL_EXPORT)
 #undef FACET_MODEL_EXPORT
 FACET_EXPORT(AlphaKernel);
 FACET_EXPORT(EnvironmentAtKernel);
 FACET_EXPORT(BackgroundKernel);
 
-void ShadeSeenThrough(const ShadeTask& task) {
+namespace {
+
+// Unlit materials have no layers.
+void ShadeLayered(const ShadeTask& task) {
   switch (task.material->model) {
-#define FACET_MODEL_CASE(Name) \
-  case ShadingModel::Name: return FACET_DISPATCH(SeenThrough##Name##Kernel)(task);
+#define FACET_MODEL_CASE(Name)                                                            \
+  case ShadingModel::Name:                                                                \
+    return task.seen_through != nullptr ? FACET_DISPATCH(SeenThrough##Name##Kernel)(task) \
+                                        : FACET_DISPATCH(Layered##Name##Kernel)(task);
     FACET_MODELS_SEEN_THROUGH(FACET_MODEL_CASE)
 #undef FACET_MODEL_CASE
-    case ShadingModel::Unlit: break;  // never seen through
+    case ShadingModel::Unlit: break;
   }
 }
 
+}  // namespace
+
 void ShadeFragments(const ShadeTask& task) {
-  if (task.seen_through != nullptr) return ShadeSeenThrough(task);
-  const bool layered = task.material->Has(kLayerFeatures);
+  if (task.material->Has(kLayerFeatures)) return ShadeLayered(task);
   switch (task.material->model) {
 #define FACET_MODEL_CASE(Name) \
-  case ShadingModel::Name:     \
-    return layered ? FACET_DISPATCH(Layered##Name##Kernel)(task) : FACET_DISPATCH(Name##Kernel)(task);
+  case ShadingModel::Name: return FACET_DISPATCH(Name##Kernel)(task);
     FACET_SHADING_MODELS(FACET_MODEL_CASE)
 #undef FACET_MODEL_CASE
   }

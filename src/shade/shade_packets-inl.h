@@ -54,16 +54,16 @@ HWY_INLINE void StoreSeenThrough(const ShadeTask& task, const Surface<T>& surfac
   const T x = row(0, surface.position) / distance, y = row(1, surface.position) / distance;
   const int channels = task.material->Has(kDispersion) ? 3 : 1;
   for (int c = 0; c < channels; ++c) {
-    // The exit point's pixel minus the fragment's: ((x d + dx) / (d + dd)) - x. Exits do not come near the eye.
+    // The exit point's pixel minus the fragment's: (x d + dx) / (d + farther) - x. Exits do not come near the eye.
     const Vec3<T>& path = shaded.path[c];
-    const T nearer = task.orthographic ? zero : row(2, path);
-    const T exit = Max(distance + nearer, distance * T(1e-3f));
+    const T farther = task.orthographic ? zero : row(2, path);
+    const T exit = Max(distance + farther, distance * T(1e-3f));
     const auto bounded = [&](T shift) HWY_ATTR {
       constexpr float kMost = 0x1p20f;  // pixels
       return Select(IsFinite(shift), Clamp(shift, T(-kMost), T(kMost)), zero);
     };
-    put(bounded((row(0, path) - x * nearer) / exit), out.shift_x[c]);
-    put(bounded((row(1, path) - y * nearer) / exit), out.shift_y[c]);
+    put(bounded((row(0, path) - x * farther) / exit), out.shift_x[c]);
+    put(bounded((row(1, path) - y * farther) / exit), out.shift_y[c]);
   }
 }
 

@@ -83,7 +83,7 @@ const LayerCase kLayers[] = {
      [](Material& m) { m.transmission_factor = 0.1f, m.thickness_factor = 1.0f, m.dispersion = 1.0f; }, false, true},
     {"diffuse transmission", kDiffuseTransmission, [](Material& m) { m.diffuse_transmission_factor = 0.1f; }, false,
      true},
-    {"scattering volume", kDiffuseTransmission | kVolume,
+    {"thickness without transmission", kDiffuseTransmission,
      [](Material& m) { m.diffuse_transmission_factor = 0.1f, m.thickness_factor = 1.0f; }, false, true},
     {"iridescence", kIridescence, [](Material& m) { m.iridescence_factor = 0.1f; }, true, true},
     {"anisotropy", kAnisotropy, [](Material& m) { m.anisotropy_strength = 0.1f; }, true, true},

@@ -22,7 +22,7 @@ struct Surface {
   Vec3<T> view;      // unit, towards the eye
   Vec3<T> normal;    // unit, interpolated, on the viewer's side
   // Interpolated but not normalised, as MikkTSpace demands for normal mapping; tangent.w is the handedness. The
-  // tangent is zero unless the material has a normal texture that could be decoded.
+  // tangent is zero unless the material has a texture in tangent space that could be decoded, or is anisotropic.
   Vec3<T> interpolated_normal;
   Vec4<T> tangent;
   Vec4<T> color;     // vertex colour, linear; 1 where there is none

@@ -1,6 +1,6 @@
 // Light that passes straight through a surface (KHR_materials_transmission) and through the medium behind it
 // (KHR_materials_volume, KHR_materials_dispersion). What is seen through the surface is multiplied by `color`; where it
-// is seen, and how far it is blurred, follows from Path() and Spread().
+// is seen, and how far it is blurred, follows from RefractedPath() and Spread().
 //
 // A thin wall (thickness 0) does not refract. A volume is a flat slab of the given thickness: the view is refracted
 // once, by Snell's law at the shading normal, and leaves it after that distance, which the absorption of the medium
@@ -29,7 +29,7 @@ template <class T>
 struct TransmissionInputs {
   T factor{};          // [0, 1]
   Vec3<T> ior;         // for red, green and blue; 1 or more
-  T thickness{};       // of the volume; 0: a thin wall. Metres, once it is multiplied by Surface::metres_per_unit
+  T thickness{};       // of the volume; 0: a thin wall. Units of the mesh; metres in the lobe
   Vec3<T> absorption;  // per metre; read if the material has a volume
 };
 
@@ -58,8 +58,7 @@ struct TransmissionLobe {
     return {of(absorption.x), of(absorption.y), of(absorption.z)};
   }
 
-  // The BTDF times the cosine, for light from behind, before `color`. `back`: the normal mirrored, so that light from
-  // behind is on its side.
+  // The BTDF times the cosine, for light from behind, before `color`.
   template <class Lighting>
   HWY_INLINE T Direct(const SurfaceView<T>& at, const Vec3<T>& light, const Lighting& lighting) const {
     const T behind = -Dot(at.normal, light);
@@ -80,9 +79,10 @@ struct TransmissionLobe {
   //
   // That is the mirrored reflection of a thin wall. The facets of a volume refract: they deviate light by ior - 1 times
   // their tilt instead of twice.
-  HWY_INLINE T Spread(bool has_volume, T ior) const {
+  HWY_INLINE T Spread(T thickness, T ior) const {
     const T mirrored = unclamped_alpha * T(1.7f) / (T(1.0f) + unclamped_alpha);
-    return has_volume ? mirrored * Min(T(0.25f) * Max(T(2.0f) * ior - T(2.0f), T(1.0f)), T(1.0f)) : mirrored;
+    const T refracted = mirrored * Min(T(0.25f) * Max(T(2.0f) * ior - T(2.0f), T(1.0f)), T(1.0f));
+    return Select(thickness > T(0.0f), refracted, mirrored);
   }
 };
 

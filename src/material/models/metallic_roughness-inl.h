@@ -14,14 +14,16 @@ HWY_BEFORE_NAMESPACE();
 namespace facet {
 namespace HWY_NAMESPACE {
 
-struct MetallicRoughness {
+// A model that is lit by its closure. `kCoreOf`: the lobes of its materials that have no layers.
+template <MaterialFeatures kCoreOf>
+struct LitModel {
   template <class T, class Material, class Lighting>
   HWY_INLINE Shaded<T> operator()(const Surface<T>& surface, const Material& material, const Lighting& lighting) const {
     return With<kAllLobes>(surface, material, lighting);
   }
 
   // For materials whose lobes are all in `kPossible`.
-  static constexpr MaterialFeatures kCore = kCoreLobes;
+  static constexpr MaterialFeatures kCore = kCoreOf;
   template <MaterialFeatures kPossible, class T, class Material, class Lighting>
   static HWY_INLINE Shaded<T> With(const Surface<T>& surface, const Material& material, const Lighting& lighting) {
     const MaterialInputs<T> inputs = material.template Inputs<kPossible>(surface);
@@ -35,6 +37,8 @@ struct MetallicRoughness {
     return ShadeThrough(material.template Inputs<kAllLobes>(surface), surface, metres_per_unit, lighting);
   }
 };
+
+struct MetallicRoughness : LitModel<kCoreLobes> {};
 
 }  // namespace HWY_NAMESPACE
 }  // namespace facet

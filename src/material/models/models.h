@@ -13,7 +13,7 @@
 // Names of functors, in the order of ShadingModel.
 #define FACET_SHADING_MODELS(X) X(MetallicRoughness) X(SpecularGlossiness) X(Unlit)
 
-// Those of them that light can pass through.
+// Those of them that have layers, and that light can pass through.
 #define FACET_MODELS_SEEN_THROUGH(X) X(MetallicRoughness) X(SpecularGlossiness)
 
 namespace facet {

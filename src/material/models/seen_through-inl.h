@@ -30,12 +30,12 @@ template <class T, class Lighting>
 HWY_INLINE ShadedThrough<T> ShadeThrough(MaterialInputs<T> in, const Surface<T>& surface, T metres_per_unit,
                                          const Lighting& lighting) {
   const bool has_volume = (in.lobes & kVolume) != 0;
-  if (has_volume) in.transmission.thickness = Min(in.transmission.thickness * metres_per_unit, T(1e18f));
+  if (has_volume) in.transmission.thickness = Min(in.transmission.thickness * metres_per_unit, T(1e30f));
   const Closure<T> closure(in, surface.view, lighting);
   ShadedThrough<T> out{};
   out.own = {ShadeClosure(closure, in, surface.position, lighting), in.alpha_coverage};
   out.tint = closure.transmission.color;
-  out.spread = closure.transmission.Spread(has_volume, in.transmission.ior.y);
+  out.spread = closure.transmission.Spread(in.transmission.thickness, in.transmission.ior.y);
   if (!has_volume) return out;
   const T thickness = in.transmission.thickness;
   const Vec3<T>& ior = in.transmission.ior;
