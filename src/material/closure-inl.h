@@ -47,13 +47,13 @@ struct MaterialInputs {
   // Each member on its own: clearing the whole as one block would cost every packet more than a hundred instructions.
   HWY_INLINE MaterialInputs() {}
 
-  Vec3<T> base_color;      // clamped to 1
+  Vec3<T> base_color{};    // clamped to 1
   T alpha_coverage{};      // not read here
   T metallic{};            // [0, 1]
   T perceptual_roughness{};  // [0, 1]
-  Vec3<T> normal;          // unit, shading, on the viewer's side
+  Vec3<T> normal{};          // unit, shading, on the viewer's side
   T occlusion{};           // 1 + strength * (texel - 1); 1 where there is none
-  Vec3<T> emissive;        // radiance
+  Vec3<T> emissive{};      // radiance
   MaterialFeatures lobes = kDiffuseLobe;  // those that the material has besides the specular lobe
   // Each of the following is read only if `lobes` has its bit.
   Interface<T> dielectric;  // kSpecular or kIor

@@ -20,7 +20,7 @@ namespace HWY_NAMESPACE {
 // The direction along which a surface is rougher, and by how much.
 template <class T>
 struct AnisotropyInputs {
-  Vec3<T> tangent, bitangent;  // unit, perpendicular to the shading normal and to one another
+  Vec3<T> tangent{}, bitangent{};  // unit, perpendicular to the shading normal and to one another
   T strength{};                // [0, 1]
 };
 

@@ -19,7 +19,7 @@ template <class T>
 struct ClearcoatInputs {
   T factor{};                // [0, 1]
   T perceptual_roughness{};  // [0, 1]
-  Vec3<T> normal;            // unit, shading
+  Vec3<T> normal{};          // unit, shading
 };
 
 template <class T>

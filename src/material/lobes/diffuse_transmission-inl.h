@@ -18,7 +18,7 @@ namespace HWY_NAMESPACE {
 template <class T>
 struct DiffuseTransmissionInputs {
   T factor{};     // [0, 1]
-  Vec3<T> color;  // of the light that passes, [0, 1]
+  Vec3<T> color{};  // of the light that passes, [0, 1]
 };
 
 template <class T>

@@ -77,7 +77,7 @@ struct CharlieMasking {
 
 template <class T>
 struct SheenInputs {
-  Vec3<T> color;             // [0, 1]
+  Vec3<T> color{};           // [0, 1]
   T perceptual_roughness{};  // [0, 1]
 };
 

@@ -24,7 +24,7 @@ namespace HWY_NAMESPACE {
 // The reflectance of an interface: Schlick's Fresnel from F0 at normal incidence to F90 at grazing angles.
 template <class T>
 struct Interface {
-  Vec3<T> f0;
+  Vec3<T> f0{};
   T f90{};
 };
 

@@ -28,9 +28,9 @@ namespace HWY_NAMESPACE {
 template <class T>
 struct TransmissionInputs {
   T factor{};          // [0, 1]
-  Vec3<T> ior;         // for red, green and blue; 1 or more
+  Vec3<T> ior{};       // for red, green and blue; 1 or more
   T thickness{};       // of the volume; 0: a thin wall. Units of the mesh; metres in the lobe
-  Vec3<T> absorption;  // per metre; read if the material has a volume
+  Vec3<T> absorption{};  // per metre; read if the material has a volume
 };
 
 template <class T>
