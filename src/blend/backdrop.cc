@@ -175,7 +175,7 @@ Backdrop::Mean Backdrop::Around(float x, float y, float deviation, float nearest
       if (next > 0.0f) AddSpline(level + 1, x, y, nearest, next, sum);
     }
   }
-  // Smaller shares would be nothing but rounding error.
+  // A mean over less than this has more rounding error than light.
   constexpr float kLeastInside = 1e-6f, kLeastAccepted = 1e-3f;
   if (!(sum.inside > kLeastInside)) return {};
   if (sum.accepted <= kLeastAccepted * sum.inside) {

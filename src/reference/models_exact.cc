@@ -12,10 +12,7 @@ glm::dvec3 MetallicRoughness(const ExactMaterial& material, const glm::dvec3& ba
   return RadianceTowardEye(material, base_color, point, light, run);
 }
 
-glm::dvec3 SpecularGlossiness(const ExactMaterial& material, const glm::dvec3& base_color, const SurfacePoint& point,
-                              const ExactLight& light, const SampleRun& run) {
-  return RadianceTowardEye(material, base_color, point, light, run);
-}
+constexpr auto SpecularGlossiness = MetallicRoughness;  // they differ in how the material is read
 
 glm::dvec3 Unlit(const ExactMaterial& material, const glm::dvec3& base_color, const SurfacePoint& point,
                  const ExactLight&, const SampleRun&) {

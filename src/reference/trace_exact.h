@@ -92,7 +92,7 @@ class ExactTracer {
     int channel = -1;  // whose index of refraction counts; -1: those of all are equal
     int left = kMostCrossings;
   };
-  // The random numbers of one sample of the image.
+  // Hands out the random numbers of one sample of a pixel, each pair once.
   struct Random {
     const SampleSequence& sequence;
     std::uint32_t pair, index, environment_samples;

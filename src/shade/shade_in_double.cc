@@ -28,8 +28,14 @@ lanes::Shaded<double> ShadeSeenThrough(const ShadeTask& task, const lanes::Surfa
     lanes::StoreSeenThrough(task, surface, i, shaded);
     return shaded.own;
   };
-  return material.Model() == ShadingModel::SpecularGlossiness ? shade(lanes::SpecularGlossiness())
-                                                              : shade(lanes::MetallicRoughness());
+  switch (material.Model()) {
+#define FACET_MODEL_CASE(Name) \
+  case ShadingModel::Name: return shade(lanes::Name());
+    FACET_MODELS_SEEN_THROUGH(FACET_MODEL_CASE)
+#undef FACET_MODEL_CASE
+    case ShadingModel::Unlit: break;
+  }
+  return {};
 }
 
 class DoubleShader final : public FragmentShader {

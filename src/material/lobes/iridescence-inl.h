@@ -51,8 +51,9 @@ struct ThinFilm {
   }
 
  private:
-  // The F0 with which Schlick's Fresnel gives this reflectance at the angle of the view. In the last half degree before
-  // grazing, where Schlick's term rises to 1 whatever F0 is, the film fades, because F0 would be nothing but rounding.
+  // The F0 with which Schlick's Fresnel gives this reflectance at the angle of the view. Near grazing angles Schlick's
+  // term is close to 1 whatever F0 is, so that F0 would be a quotient of two rounding errors: within half a degree of
+  // them the film fades out.
   HWY_INLINE T Fold(T base, T reflectance) const {
     constexpr float kLeastRest = 0.05f;
     const T rest = Max(T(1.0f) - SchlickWeight(cosine_), T(kLeastRest));
