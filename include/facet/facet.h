@@ -9,6 +9,7 @@
 #include "facet/film.h"
 #include "facet/image.h"
 #include "facet/load.h"
+#include "facet/models.h"
 #include "facet/planes.h"
 #include "facet/render.h"
 #include "facet/report.h"

@@ -60,6 +60,11 @@ struct LoadOptions {
 // Throws Error: NotFound, InvalidInput, Unsupported (a required extension, by name), OutOfMemory.
 LoadedScene LoadGltf(const std::filesystem::path& path, const LoadOptions& options = {});
 
+// Gives materials of the scene other shading models (facet/models.h), as a material file says: docs/material-files.md.
+// The textures that it names are added to the scene; they must lie in the file's folder, or in options.root. If it
+// fails, the scene stays as it is. Throws Error: NotFound; InvalidInput, with the JSON pointer of what is wrong.
+LoadReport ApplyMaterialFile(Scene& scene, const std::filesystem::path& file, const LoadOptions& options = {});
+
 // Opens an environment image for EnvironmentSettings::source whose prefiltered maps are cached in the folder `cache`.
 // The image is decoded and prefiltered only if the cache has no entry for a file of the same bytes and the same
 // settings; frames are the same, bit for bit, with and without the cache. Several programs may share a cache; entries

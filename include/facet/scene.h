@@ -50,6 +50,7 @@ struct TextureRef {
   glm::vec2 scale{1.0f};
   float rotation = 0.0f;  // radians, counter-clockwise in UV space with v down, as the extension defines it
   explicit operator bool() const { return texture >= 0; }
+  bool operator==(const TextureRef&) const = default;
 };
 
 // --- Materials -----------------------------------------------------------------------------------------------------
@@ -57,8 +58,11 @@ struct TextureRef {
 enum class AlphaMode : std::uint8_t { Opaque, Mask, Blend };
 
 // How a material turns its parameters into reflection. SpecularGlossiness (KHR_materials_pbrSpecularGlossiness) states
-// diffuse and specular colours instead of metalness. Unlit (KHR_materials_unlit) shows its base colour as it is.
-enum class ShadingModel : std::uint8_t { MetallicRoughness, SpecularGlossiness, Unlit };
+// diffuse and specular colours instead of metalness. Unlit (KHR_materials_unlit) shows its base colour as it is. The
+// others have parameters of their own (facet/models.h).
+enum class ShadingModel : std::uint8_t { MetallicRoughness, SpecularGlossiness, Unlit, Lecture, Filament, Enterprise };
+
+struct ModelParameters;  // facet/models.h
 
 struct Material {
   std::string name;
@@ -127,6 +131,10 @@ struct Material {
   glm::vec3 specular_glossiness_specular_factor{1.0f};  // linear, [0, 1]
   float glossiness_factor = 1.0f;                       // 1 - perceptual roughness, [0, 1]
   TextureRef specular_glossiness_texture;               // RGB specular, sRGB; A glossiness
+
+  // Of the models that are not glTF's: those of `model`, and then all of the above but the name, the alpha mode, the
+  // cutoff and double-sidedness is ignored. Null for glTF's models.
+  std::shared_ptr<const ModelParameters> parameters;
 };
 
 // --- Geometry ------------------------------------------------------------------------------------------------------

@@ -121,6 +121,7 @@ class Check {
     const std::filesystem::path folder = manifest_.path.parent_path();
     result_.files.push_back(folder / entry_.scene);
     if (entry_.request.environment) result_.files.push_back(folder / *entry_.request.environment);
+    if (entry_.request.materials) result_.files.push_back(folder / *entry_.request.materials);
     if (expect_.picture) result_.files.push_back(folder / *expect_.picture);
     try {
       if (entry_.problem) throw Error(*entry_.problem);
@@ -348,6 +349,7 @@ FileSet InputsOf(const Manifest& manifest) {
   for (const ManifestEntry& entry : manifest.entries) {
     files.Add(folder / entry.scene);
     if (entry.request.environment) files.Add(folder / *entry.request.environment);
+    if (entry.request.materials) files.Add(folder / *entry.request.materials);
   }
   return files;
 }

@@ -9,45 +9,13 @@
 #include "base/json_bounds.h"
 #include "base/memory_budget.h"
 #include "base/printable.h"
-#include "gltf/recognize.h"
+#include "gltf/strict_json.h"
 
 namespace facet {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-// A value of the manifest and its JSON pointer.
-struct Value {
-  const Json& json;
-  Json::json_pointer pointer;
-  const std::string& file;
-
-  Value operator[](const std::string& key) const { return {json.at(key), pointer / key, file}; }
-  bool Has(const char* key) const { return json.contains(key); }
-  std::string Place() const { return file + ": " + Printable(pointer.to_string()); }
-
-  [[noreturn]] void Fail(const std::string& message, const std::string& hint = {}) const {
-    throw Error(ErrorCode::InvalidInput, message, pointer.empty() ? file : Place(), hint);
-  }
-  const Value& Expect(bool good, const char* what) const {
-    if (!good) Fail(std::string("is no ") + what);
-    return *this;
-  }
-  const std::string& Text() const { return Expect(json.is_string(), "string").json.get_ref<const std::string&>(); }
-
-  template <std::size_t N>
-  const Value& ExpectObject(const std::array<const char*, N>& keys) const {
-    Expect(json.is_object(), "object");
-    for (const auto& [key, ignored] : json.items()) {
-      if (std::find(keys.begin(), keys.end(), key) == keys.end()) {
-        std::string list;
-        for (const char* known : keys) list += (list.empty() ? "" : ", ") + std::string(known);
-        (*this)[key].Fail("unknown key", "use one of " + list);
-      }
-    }
-    return *this;
-  }
-};
+using Json = StrictJson;
+using Value = JsonValue;
 
 Digest ReadDigest(const Value& value) {
   if (const std::optional<Digest> digest = ParseDigest(value.Text())) return *digest;
@@ -146,61 +114,6 @@ void ReadEntry(const Value& value, ManifestEntry& entry) {
   if (value.Has("expect")) entry.expect = ReadExpectation(value["expect"]);
 }
 
-// Checks the text before it is parsed. Refuses duplicate keys, of which the parser would silently keep the last, and
-// objects with very many keys, for which the parser takes quadratic time.
-class KeyGuard : public nlohmann::json_sax<Json> {
- public:
-  explicit KeyGuard(const std::string& file) : file_(file) {}
-
-  bool start_object(std::size_t) override { return seen_.emplace_back(), true; }
-  bool end_object() override { return seen_.pop_back(), true; }
-  bool key(std::string& name) override {
-    constexpr std::size_t kMostKeys = 1000;
-    if (!seen_.back().insert(name).second) Fail("the key " + Quoted(name) + " is twice in one object");
-    if (seen_.back().size() > kMostKeys) Fail("an object has more than " + std::to_string(kMostKeys) + " keys");
-    return true;
-  }
-  bool null() override { return true; }
-  bool boolean(bool) override { return true; }
-  bool number_integer(number_integer_t) override { return true; }
-  bool number_unsigned(number_unsigned_t) override { return true; }
-  bool number_float(number_float_t, const std::string&) override { return true; }
-  bool string(std::string&) override { return true; }
-  bool binary(binary_t&) override { return true; }
-  bool start_array(std::size_t) override { return true; }
-  bool end_array() override { return true; }
-  // Parse() reports syntax errors, with line and column.
-  bool parse_error(std::size_t, const std::string&, const Json::exception&) override { return false; }
-
- private:
-  void Fail(const std::string& message) const { throw Error(ErrorCode::InvalidInput, message, file_); }
-
-  const std::string& file_;
-  std::vector<std::set<std::string>> seen_;
-};
-
-Json Parse(const std::string& text, const std::string& file) {
-  gltf::RefuseForeignJson(text, file);
-  if (IsJsonDeeperThan(text, kMaxJsonDepth)) {
-    throw Error(ErrorCode::InvalidInput, "JSON is nested deeper than " + std::to_string(kMaxJsonDepth) + " levels",
-                file);
-  }
-  try {
-    KeyGuard guard(file);
-    Json::sax_parse(text, &guard);
-    return Json::parse(text);
-  } catch (const Json::parse_error& error) {
-    const std::string before = text.substr(0, error.byte == 0 ? 0 : error.byte - 1);
-    const auto line = 1 + std::count(before.begin(), before.end(), '\n');
-    const std::size_t column = before.size() - (before.rfind('\n') + 1) + 1;  // npos + 1 is 0
-    std::string what = Printable(error.what());
-    what.erase(0, what.find(": ") + 2);  // removes the position in the parser's message
-    throw Error(ErrorCode::InvalidInput, what, file + ":" + std::to_string(line) + ":" + std::to_string(column));
-  } catch (const Json::exception& error) {
-    throw Error(ErrorCode::InvalidInput, Printable(error.what()), file);
-  }
-}
-
 Json DigestsAsJson(const ExpectedInputs& inputs) {
   Json json = Json::object();
   const auto put = [&json](const char* key, const std::optional<Digest>& digest) {
@@ -230,7 +143,7 @@ Manifest ReadManifest(const std::filesystem::path& path) {
   manifest.path = path;
   manifest.text = ReadFile(path).Text();
   const MemoryLease lease(JsonMemory(manifest.text), 2, "JSON", manifest.name);
-  const Json json = Parse(manifest.text, manifest.name);
+  const Json json = ParseStrictJson(manifest.text, manifest.name);
   const Value root{json, Json::json_pointer(), manifest.name};
   root.Expect(json.is_object(), "manifest: a JSON object");
   if (!root.Has("version")) root.Fail("has no 'version'", "a manifest begins with \"version\": 1");

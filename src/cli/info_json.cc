@@ -9,6 +9,7 @@
 
 #include "cli/camera_text.h"
 #include "cli/info_summary.h"
+#include "material/model_parameters.h"
 #include "material/models/models.h"
 #include "material/parameters.h"
 
@@ -103,6 +104,19 @@ void AddNumbers(const Material& material, Json& json) {
   });
 }
 
+template <class Value>
+Json JsonOf(const Value& value, const RowOptions& options) {
+  if constexpr (requires { value.value; }) {
+    return Number(value.value);
+  } else if constexpr (std::is_same_v<Value, bool>) {
+    return value;
+  } else if constexpr (std::is_enum_v<Value>) {
+    return options.words[std::size_t(value)];
+  } else {
+    return Number(value);
+  }
+}
+
 Json ToJson(const MaterialSummary& summary) {
   const Material& material = *summary.material;
   Json textures = Json::object();
@@ -116,7 +130,13 @@ Json ToJson(const MaterialSummary& summary) {
                {"double_sided", material.double_sided},
                {"model", InfoOf(material.model).word},
                {"unlit", material.model == ShadingModel::Unlit}};
-  AddNumbers(material, json);
+  if (material.parameters == nullptr) {
+    AddNumbers(material, json);
+  } else {
+    ForEachStatedParameter(*material.parameters, [&](const auto& parameter, const auto& value) {
+      json["parameters"][parameter.name] = JsonOf(value, parameter);
+    });
+  }
   json["textures"] = std::move(textures);
   json["primitives"] = summary.primitives;
   return json;

@@ -4,7 +4,7 @@
 #include <set>
 #include <utility>
 
-#include "material/slots.h"
+#include "material/model_parameters.h"
 #include "scene/camera.h"
 #include "scene/pose.h"
 
@@ -46,8 +46,8 @@ MeshSummary SummarizeMesh(const Mesh& mesh) {
 MaterialSummary SummarizeMaterial(const Material& material) {
   MaterialSummary summary;
   summary.material = &material;
-  for (const SlotInfo& slot : kSlots) {
-    const TextureRef& ref = material.*slot.ref;
+  for (const SlotInfo& slot : SlotsOf(material.model)) {
+    const TextureRef& ref = TextureIn(material, slot);
     if (!ref) continue;
     const bool transformed = ref.offset != glm::vec2(0.0f) || ref.scale != glm::vec2(1.0f) || ref.rotation != 0.0f;
     summary.textures.push_back({slot.key, ref, transformed});

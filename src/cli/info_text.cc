@@ -11,6 +11,7 @@
 #include "base/printable.h"
 #include "cli/camera_text.h"
 #include "cli/info_summary.h"
+#include "material/model_parameters.h"
 #include "material/models/models.h"
 #include "material/parameters.h"
 
@@ -90,6 +91,20 @@ std::string Describe(const TextureUse& use) {
 std::string Numbers(float value) { return Format(" %g", static_cast<double>(value)); }
 std::string Numbers(const glm::vec3& color) { return Numbers(color.x) + Numbers(color.y) + Numbers(color.z); }
 
+std::string Numbers(const glm::vec4& color) { return Numbers(glm::vec3(color)) + Numbers(color.a); }
+template <class Value>
+std::string Numbers(const Value& value, const RowOptions& options) {
+  if constexpr (requires { value.value; }) {
+    return Numbers(value.value);
+  } else if constexpr (std::is_same_v<Value, bool>) {
+    return value ? " true" : " false";
+  } else if constexpr (std::is_enum_v<Value>) {
+    return std::string(" ") + options.words[std::size_t(value)];
+  } else {
+    return Numbers(value);
+  }
+}
+
 std::string Describe(const MaterialSummary& summary) {
   const Material& material = *summary.material;
   std::vector<std::string> parts;
@@ -99,7 +114,12 @@ std::string Describe(const MaterialSummary& summary) {
     case AlphaMode::Blend: parts.push_back("blended"); break;
   }
   if (material.double_sided) parts.push_back("double-sided");
-  if (material.model != ShadingModel::MetallicRoughness) {
+  if (material.parameters != nullptr) {
+    parts.push_back(InfoOf(material.model).word);
+    ForEachStatedParameter(*material.parameters, [&](const auto& parameter, const auto& value) {
+      parts.push_back(parameter.name + Numbers(value, parameter));
+    });
+  } else if (material.model != ShadingModel::MetallicRoughness) {
     parts.push_back(InfoOf(material.model).word);
   } else {
     parts.push_back(Format("metallic %g", static_cast<double>(material.metallic_factor)));

@@ -189,6 +189,7 @@ class Drawing {
  private:
   void Load() {
     loaded_ = LoadGltf(options_.input, options_.load);
+    ApplyMaterials(request_, loaded_, options_.load);
     stats_.load_seconds = stage_.Lap();
     stats_.input_bytes = loaded_.report.file_bytes;
     PrintWarnings(loaded_.report.warnings, options_);

@@ -8,6 +8,8 @@
 #include "base/parallel.h"
 #include "facet/version.h"
 #include "light/environment_source.h"
+#include "material/model_parameters.h"
+#include "material/models/models.h"
 #include "plan/frame_plan.h"
 #include "scene/camera.h"
 #include "scene/topology.h"
@@ -23,7 +25,7 @@ constexpr double kSecondsOfPreparation = 0.5;
 // The features of kFeatureWords that a material uses.
 FeatureSet UsedFeatures(const FrameMaterial& material) {
   FeatureSet used;
-  ForEachSlot(material.features, [&](Slot slot) { used.Add(InfoOf(slot).feature); });
+  ForEachSlotOf(material.model, material.features, [&](const SlotInfo& slot) { used.Add(slot.feature); });
   for (const FactorFeature& factor : kFactorFeatures) {
     if (material.Has(factor.bit)) used.Add(factor.feature);
   }
@@ -65,11 +67,14 @@ std::vector<ExplainedTexture> DescribeTextures(const Scene& scene, const FramePl
     const SceneImage& image = scene.images[std::size_t(planned.image)];
     textures[t].image = image.name.empty() ? image.source->Name() : image.name;
     textures[t].file = image.source->Header().value_or(ImageHeader());
-    for (const SlotInfo& slot : kSlots) {
-      const bool reads = std::any_of(plan.materials.begin(), plan.materials.end(), [&](const PlannedMaterial& m) {
-        return m.textures[IndexOf(slot.slot)] == static_cast<int>(t);
-      });
-      if (reads) textures[t].roles.emplace_back(slot.word);
+    for (const ModelInfo& model : kModels) {
+      for (const SlotInfo& slot : SlotsOf(model.model)) {
+        const bool reads = std::any_of(plan.materials.begin(), plan.materials.end(), [&](const PlannedMaterial& m) {
+          return m.frame.model == model.model && m.textures[IndexOf(slot.slot)] == static_cast<int>(t);
+        });
+        std::vector<std::string>& roles = textures[t].roles;
+        if (reads && std::ranges::find(roles, slot.word) == roles.end()) roles.emplace_back(slot.word);
+      }
     }
     for (const TextureStats& kept : stats.textures) {
       if (kept.image == planned.image && kept.color == (planned.role == TextureRole::Color)) textures[t].kept = kept;

@@ -168,6 +168,10 @@ void WarnOfNoImage(const Json& object, const Place& place) {
 
 }  // namespace
 
+std::shared_ptr<const ImageSource> OpenPicture(const std::filesystem::path& path) {
+  return std::make_shared<ImageFile>(path);
+}
+
 std::vector<bool> ReadImages(Context& context, BufferStore& buffers, Scene& scene) {
   const Place list_place(context.place, "images");
   constexpr std::size_t kSource = 256;  // an ImageSource with its name

@@ -1,6 +1,9 @@
 // Images and textures. Images stay encoded until they are needed.
 #pragma once
 
+#include <filesystem>
+#include <memory>
+
 #include "facet/scene.h"
 #include "gltf/buffers.h"
 
@@ -13,5 +16,8 @@ std::vector<bool> ReadImages(Context& context, BufferStore& buffers, Scene& scen
 // Makes a Texture for each texture of the file, with its sampler. `images`: the result of ReadImages(); a texture whose
 // image does not exist has none.
 void ReadTextures(Context& context, const std::vector<bool>& images, Scene& scene);
+
+// A picture in a file of its own, which is read when it is decoded. The file need not be there.
+std::shared_ptr<const ImageSource> OpenPicture(const std::filesystem::path& path);
 
 }  // namespace facet::gltf

@@ -28,6 +28,7 @@ enum MaterialFeature : std::uint64_t {
   kDiffuseTransmission = kFirstFeature << 13,
   kIridescence = kFirstFeature << 14,
   kAnisotropy = kFirstFeature << 15,
+  kTangents = kFirstFeature << 16,  // a model that is not glTF's needs tangents without a texture
 };
 using MaterialFeatures = std::uint64_t;
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "material/model_parameters.h"
 #include "math/elementary.h"
 #include "math/round_to_float.h"
 
@@ -32,6 +33,11 @@ void SetIndices(const Material& material, float (&ior)[3]) {
 
 MaterialFactors FactorsOf(const Material& m) {
   MaterialFactors f;
+  if (m.parameters != nullptr) {
+    Copy(BaseColorOf(*m.parameters), f.base_color);
+    f.alpha_cutoff = m.alpha_cutoff;
+    return f;
+  }
   Copy(m.base_color_factor, f.base_color);
   f.metallic = m.metallic_factor;
   f.perceptual_roughness = m.roughness_factor;

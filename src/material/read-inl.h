@@ -2,6 +2,7 @@
 // they sample. A Source provides:
 //   bool Has(MaterialFeatures) const;
 //   const MaterialFactors& Factors() const;
+//   template <class Block> const Block& Parameters() const;   // of models that are not glTF's
 //   template <int kChannels> Vec4<T> Read(Slot) const;   // the texture, if Has(BitOf(slot))
 //   Vec3<T> Normal() const;                              // of the surface, unit
 //   Vec3<T> InterpolatedNormal() const;                  // not normalised

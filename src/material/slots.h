@@ -1,6 +1,7 @@
 // The table of texture slots: everything in which the textures of a material differ. All code that handles every
 // texture (the loader, validation, the plan, decoding, the shaders, the reference, `explain` and `info`) loops over it.
 // A new texture is therefore a new row, the parameter that it scales, and the line of the shading model that reads it.
+// Models that are not glTF's have slots of their own (SlotsOf() in material/model_parameters.h).
 #pragma once
 
 #include <array>
@@ -45,7 +46,7 @@ struct SlotInfo {
   const char* key;         // in the output of `facet info`
   const char* gltf_group;  // the object within a glTF material that has the texture; null: the material itself
   const char* gltf_name;
-  TextureRef Material::*ref;
+  TextureRef Material::*ref;  // null: of a model that is not glTF's
   TextureRole role;
   int channels;     // those that are read: bits of ChannelMask
   Feature feature;  // the feature that disables it
@@ -148,24 +149,26 @@ inline constexpr auto kSlots = std::to_array<SlotInfo>({
      [](const Material&
             m) { return m.glossiness_factor != 0.0f || m.specular_glossiness_specular_factor != glm::vec3(0.0f); }},
 });
-inline constexpr std::size_t kSlotCount = kSlots.size();
+// The most that a model has, for arrays.
+inline constexpr std::size_t kMaxSlots = 32;
+static_assert(kSlots.size() <= kMaxSlots);
 
 constexpr std::size_t IndexOf(Slot slot) { return static_cast<std::size_t>(slot); }
 constexpr const SlotInfo& InfoOf(Slot slot) { return kSlots[IndexOf(slot)]; }
 
 // The bit of MaterialFeatures that says that the texture is read.
 constexpr MaterialFeatures BitOf(Slot slot) { return MaterialFeatures{1} << IndexOf(slot); }
-inline constexpr MaterialFeatures kTextureBits = (MaterialFeatures{1} << kSlotCount) - 1;
+inline constexpr MaterialFeatures kTextureBits = (MaterialFeatures{1} << kMaxSlots) - 1;
 static_assert(kTextureBits < kFirstFeature);
 // The bits of the features for which surfaces need tangents: textures in tangent space, and anisotropy without one.
 inline constexpr MaterialFeatures kTangentSpaceBits = [] {
-  MaterialFeatures bits = kAnisotropy;
+  MaterialFeatures bits = kAnisotropy | kTangents;
   for (const SlotInfo& slot : kSlots) bits |= slot.tangent_space ? BitOf(slot.slot) : 0;
   return bits;
 }();
 static_assert(
     [] {
-      for (std::size_t i = 0; i < kSlotCount; ++i) {
+      for (std::size_t i = 0; i < kSlots.size(); ++i) {
         if (IndexOf(kSlots[i].slot) != i) return false;
       }
       return true;

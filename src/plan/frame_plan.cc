@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "facet/shader.h"
+#include "material/model_parameters.h"
 #include "plan/unused_features.h"
 #include "scene/topology.h"
 
@@ -38,10 +39,7 @@ class Planner {
 
  private:
   PlannedMaterial Plan(Material material, int index, bool on_surface, bool colors, bool flat) {
-    for (const SlotInfo& slot : kSlots) {
-      if (flat && slot.tangent_space) material.*slot.ref = {};
-    }
-    if (flat) material.anisotropy_strength = 0.0f;
+    if (flat) RemoveTangentSpace(material);
     Disable(material, colors);
     PlannedMaterial planned;
     planned.material = index;
@@ -51,6 +49,12 @@ class Planner {
     f.vertex_colors = colors;
     f.alpha_mode = material.alpha_mode;
     f.factors = FactorsOf(material);
+    planned.parameters = material.parameters;
+    f.parameters = planned.parameters.get();
+    if (f.parameters != nullptr) {
+      const CoverageTexture coverage = CoverageOf(*f.parameters);
+      f.coverage_slot = coverage.slot, f.coverage_channel = coverage.channel;
+    }
     f.model = on_surface ? material.model : ShadingModel::Unlit;
     const auto i = std::size_t(index);
     const bool has_own =
@@ -61,13 +65,31 @@ class Planner {
       // A user's shader that knows nothing of what is behind a surface gets the material without transmission.
       f.features &= ~(kTransmission | kVolume | kDispersion | BitOf(Slot::Transmission) | BitOf(Slot::Thickness));
     }
-    ForEachSlot(f.features, [&](Slot slot) { BindTexture(material, slot, planned); });
+    ForEachSlotOf(f.model, f.features, [&](const SlotInfo& slot) { BindTexture(material, slot, planned); });
     return planned;
   }
 
-  void BindTexture(const Material& material, Slot slot, PlannedMaterial& planned) {
-    const SlotInfo& info = InfoOf(slot);
-    const TextureRef& ref = material.*info.ref;
+  // Of geometry without tangents.
+  static void RemoveTangentSpace(Material& material) {
+    for (const SlotInfo& slot : kSlots) {
+      if (slot.tangent_space) material.*slot.ref = {};
+    }
+    material.anisotropy_strength = 0.0f;
+    if (material.parameters == nullptr) return;
+    auto flat = std::make_shared<ModelParameters>(*material.parameters);
+    std::visit(
+        [](auto& block) {
+          ForEachParameterOf(block, []<class Value>(const auto&, Value& value) {
+            if constexpr (std::is_same_v<Value, TangentSpaceNormal>) value = {};
+          });
+        },
+        *flat);
+    material.parameters = flat;
+  }
+
+  void BindTexture(const Material& material, const SlotInfo& info, PlannedMaterial& planned) {
+    const Slot slot = info.slot;
+    const TextureRef& ref = TextureIn(material, info);
     const Texture& texture = scene_.textures[std::size_t(ref.texture)];
     FrameMaterial& f = planned.frame;
     if (texture.image < 0) {
@@ -80,7 +102,7 @@ class Planner {
     const bool reads_alpha = !info.alpha_is_coverage || material.alpha_mode != AlphaMode::Opaque;
     planned.textures[IndexOf(slot)] =
         TextureFor(texture.image, info.role, bound.sampler.mip != MipFilter::None,
-                   reads_alpha ? info.channels : info.channels & kRgb, slot == Slot::Emissive);
+                   reads_alpha ? ChannelsIn(material, info) : info.channels & kRgb, slot == Slot::Emissive);
     bound.max_anisotropy = static_cast<float>(settings_.max_anisotropy);
     bound.uv_slot = UvSlotFor(f, ref.tex_coord);
     SetTransform(ref, bound);
@@ -93,6 +115,14 @@ class Planner {
       stated.Add(feature);
       if (settings_.without.Has(feature)) remove();
     };
+    if (m.parameters != nullptr) {
+      const Material own = m;
+      m = Material();
+      m.alpha_mode = own.alpha_mode, m.alpha_cutoff = own.alpha_cutoff, m.double_sided = own.double_sided;
+      m.model = own.model;
+      m.parameters =
+          std::make_shared<const ModelParameters>(WithoutFeatures(*own.parameters, settings_.without, stated));
+    }
     for (const SlotInfo& slot : kSlots) {
       TextureRef& ref = m.*slot.ref;
       disable(slot.feature, bool(ref), [&ref] { ref = {}; });
@@ -137,6 +167,13 @@ bool HasMorphTargets(const Scene& scene) {
     }
   }
   return false;
+}
+
+// Whether a texture is read that the feature disables.
+bool ReadsTextureOf(const FrameMaterial& material, Feature feature) {
+  bool reads = false;
+  ForEachSlotOf(material.model, material.features, [&](const SlotInfo& slot) { reads |= slot.feature == feature; });
+  return reads;
 }
 
 constexpr const char* kOnRequest = "on request";
@@ -192,7 +229,7 @@ FramePlan MakeFramePlan(const Scene& scene, const PosedScene& posed, const Rende
   for (const SlotInfo& slot : kSlots) {
     const auto has_factor = [&](const FactorFeature& factor) { return factor.feature == slot.feature; };
     if (std::ranges::any_of(kFactorFeatures, has_factor)) continue;  // handled below
-    decide_of_materials(any_has(BitOf(slot.slot)), slot.feature, std::string(slot.name) + "s",
+    decide_of_materials(any([&](const FrameMaterial& m) { return ReadsTextureOf(m, slot.feature); }), slot.feature, std::string(slot.name) + "s",
                         "no drawn material has one");
   }
   if (!any_has(kTangentSpaceBits))

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -31,11 +32,12 @@ struct PlannedTexture {
 struct PlannedMaterial {
   int material = -1;           // index into Scene::materials; -1: glTF's default
   bool vertex_colors = false;  // the geometry has colours
+  std::shared_ptr<const ModelParameters> parameters;  // those of `frame`
   FrameMaterial frame;         // texture slots still empty
-  std::array<int, kSlotCount> textures = NoTextures();  // by Slot: index into FramePlan::textures; -1: none
+  std::array<int, kMaxSlots> textures = NoTextures();  // by Slot: index into FramePlan::textures; -1: none
 
-  static constexpr std::array<int, kSlotCount> NoTextures() {
-    std::array<int, kSlotCount> none{};
+  static constexpr std::array<int, kMaxSlots> NoTextures() {
+    std::array<int, kMaxSlots> none{};
     none.fill(-1);
     return none;
   }

@@ -4,6 +4,7 @@
 
 #include "base/memory_budget.h"
 #include "facet/error.h"
+#include "material/model_parameters.h"
 
 namespace facet {
 
@@ -16,7 +17,11 @@ glm::dvec4 ExactMaterial::BaseColor(const SurfacePoint& point) const {
   const float* const factor = frame_.factors.base_color;
   glm::dvec4 color(factor[0], factor[1], factor[2], factor[3]);
   if (frame_.vertex_colors) color *= point.color;
-  return frame_.Reads(Slot::BaseColor) ? color * Read(Slot::BaseColor, point) : color;
+  const bool coverage_apart = frame_.coverage_slot != Slot::BaseColor;
+  if (coverage_apart && frame_.ReadsCoverage()) color.a *= Read(frame_.coverage_slot, point)[frame_.coverage_channel];
+  if (!frame_.Reads(Slot::BaseColor)) return color;
+  const glm::dvec4 texel = Read(Slot::BaseColor, point);
+  return color * (coverage_apart ? glm::dvec4(glm::dvec3(texel), 1.0) : texel);
 }
 
 std::vector<ExactMaterial> MakeExactMaterials(const Scene& scene, const FramePlan& plan,
@@ -52,10 +57,10 @@ std::vector<ExactMaterial> MakeExactMaterials(const Scene& scene, const FramePla
     const PlannedMaterial& planned = plan.materials[m];
     ExactMaterial& to = result[m];
     to.frame_ = planned.frame;
-    for (const SlotInfo& slot : kSlots) {
+    for (const SlotInfo& slot : SlotsOf(planned.frame.model)) {
       const int texture = planned.textures[IndexOf(slot.slot)];
       if (texture < 0) continue;
-      const TextureRef& ref = scene.materials[std::size_t(planned.material)].*slot.ref;
+      const TextureRef& ref = TextureIn(scene.materials[std::size_t(planned.material)], slot);
       to.uses_[IndexOf(slot.slot)] = {textures[std::size_t(texture)], scene.textures[std::size_t(ref.texture)].sampler,
                                       ref.tex_coord, UvTransform(ref)};
       if (textures[std::size_t(texture)] == nullptr) to.frame_.features &= ~BitOf(slot.slot);

@@ -32,7 +32,7 @@ class ExactMaterial {
   };
 
   FrameMaterial frame_;
-  Use uses_[kSlotCount];  // by Slot
+  Use uses_[kMaxSlots];  // by Slot
 };
 
 // Makes one for each of the plan's materials. An image that cannot be decoded is ignored with a note in `notes`, as in

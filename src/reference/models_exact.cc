@@ -14,6 +14,8 @@ glm::dvec3 MetallicRoughness(const ExactMaterial& material, const glm::dvec3& ba
 
 constexpr auto SpecularGlossiness = MetallicRoughness;  // they differ in how the material is read
 
+constexpr auto Lecture = RadianceOfOwnModel, Filament = RadianceOfOwnModel, Enterprise = RadianceOfOwnModel;
+
 glm::dvec3 Unlit(const ExactMaterial& material, const glm::dvec3& base_color, const SurfacePoint& point,
                  const ExactLight&, const SampleRun&) {
   const ExactSource source{material, point};

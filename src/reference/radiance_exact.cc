@@ -1,8 +1,10 @@
 #include "reference/radiance_exact.h"
 
 #include <optional>
+#include <vector>
 
 #include "light/lighting-inl.h"
+#include "material/models/all-inl.h"
 #include "reference/exact_source-inl.h"
 #include "reference/lighting_exact-inl.h"
 #include "reference/sampling_exact-inl.h"
@@ -44,16 +46,38 @@ struct Techniques {
   std::optional<Cosine> behind;
 };
 
-glm::dvec3 ScatteredEnvironment(const ExactClosure& closure, const ExactLighting& lighting, const ExactLight& light,
+// The same for the models that are not glTF's.
+struct TechniquesOfShapes {
+  template <class Scattering>
+  explicit TechniquesOfShapes(const Scattering& s) : diffuse(FromLanes(s.normal)) {
+    s.ForEachShape([&](const lanes::Vec3<double>& normal, double alpha) {
+      specular.emplace_back(Frame(FromLanes(normal)), FromLanes(s.view), alpha, alpha);
+    });
+    if (s.TransmitsDiffusely()) behind.emplace(-FromLanes(s.normal));
+  }
+
+  template <class Visit>
+  void ForEach(const Visit& visit) const {
+    for (const VisibleNormals& lobe : specular) visit(lobe);
+    visit(diffuse);
+    if (behind) visit(*behind);
+  }
+
+  std::vector<VisibleNormals> specular;
+  Cosine diffuse;
+  std::optional<Cosine> behind;
+};
+
+// The environment's light times scattered(direction), integrated over all directions.
+template <class Techniques, class Scattered>
+glm::dvec3 ScatteredEnvironment(const Techniques& techniques, const Scattered& scattered, const ExactLight& light,
                                 const SampleRun& run) {
   const ExactEnvironment& environment = *light.environment;
-  const Techniques techniques(closure);
   glm::dvec3 sum(0.0);
   const auto add = [&](const ExactEnvironment::Light& from) {
     double density = from.density;
     techniques.ForEach([&](const auto& technique) { density += technique.Density(from.direction); });
-    const auto scattered = lanes::EvaluateClosure(closure, ToLanes(from.direction), lighting);
-    if (density > 0.0) sum += FromLanes(scattered) * from.radiance / density;
+    if (density > 0.0) sum += FromLanes(scattered(ToLanes(from.direction))) * from.radiance / density;
   };
   for (std::uint32_t k = 0; k < light.environment_samples; ++k) {
     std::uint32_t pair = run.pair;
@@ -80,9 +104,48 @@ glm::dvec3 RadianceTowardEye(const ExactMaterial& material, const glm::dvec3& ba
     radiance += FromLanes(lanes::EvaluateClosure(closure, sample.direction, lighting) * sample.irradiance);
   }
   if (light.environment != nullptr && !light.environment->IsBlack()) {
-    radiance += ScatteredEnvironment(closure, lighting, light, run) * in.occlusion;
+    const auto scattered = [&](const lanes::Vec3<double>& direction) {
+      return lanes::EvaluateClosure(closure, direction, lighting);
+    };
+    radiance += ScatteredEnvironment(Techniques(closure), scattered, light, run) * in.occlusion;
   }
   return radiance;
+}
+
+namespace {
+
+template <class Model>
+glm::dvec3 RadianceOfModel(const ExactMaterial& material, const glm::dvec3& base_color, const SurfacePoint& point,
+                           const ExactLight& light, const SampleRun& run) {
+  const ExactSource source{material, point};
+  const ExactLighting lighting(light.albedos);
+  const auto scattering = Model::template Make<double>(source, ToLanes(glm::dvec4(base_color, 1.0)), ToLanes(point.view), lighting);
+
+  glm::dvec3 radiance = FromLanes(scattering.Emission());
+  for (const PunctualLight& punctual : light.punctual) {
+    const auto sample = lanes::SamplePunctual(punctual, ToLanes(point.position));
+    radiance += FromLanes(scattering.Direct(sample.direction, lighting) * sample.irradiance);
+  }
+  if (light.environment != nullptr && !light.environment->IsBlack()) {
+    const auto scattered = [&](const lanes::Vec3<double>& direction) {
+      return scattering.FromEnvironment(direction, lighting);
+    };
+    radiance += ScatteredEnvironment(TechniquesOfShapes(scattering), scattered, light, run);
+  }
+  return radiance;
+}
+
+}  // namespace
+
+glm::dvec3 RadianceOfOwnModel(const ExactMaterial& material, const glm::dvec3& base_color, const SurfacePoint& point,
+                              const ExactLight& light, const SampleRun& run) {
+  switch (material.Frame().model) {
+#define FACET_MODEL_CASE(Name) \
+  case ShadingModel::Name: return RadianceOfModel<lanes::Name>(material, base_color, point, light, run);
+    FACET_OWN_MODELS(FACET_MODEL_CASE)
+#undef FACET_MODEL_CASE
+    default: return glm::dvec3(0.0);
+  }
 }
 
 }  // namespace facet

@@ -39,4 +39,8 @@ struct SampleRun {
 glm::dvec3 RadianceTowardEye(const ExactMaterial& material, const glm::dvec3& base_color, const SurfacePoint& point,
                              const ExactLight& light, const SampleRun& run);
 
+// The same for a material whose model is not glTF's.
+glm::dvec3 RadianceOfOwnModel(const ExactMaterial& material, const glm::dvec3& base_color, const SurfacePoint& point,
+                              const ExactLight& light, const SampleRun& run);
+
 }  // namespace facet

@@ -12,6 +12,7 @@
 #include "base/bytes_text.h"
 #include "base/parallel.h"
 #include "facet/error.h"
+#include "material/model_parameters.h"
 #include "texture/build_texture.h"
 
 namespace facet {
@@ -181,7 +182,8 @@ std::vector<FrameMaterial> BindTextures(const FramePlan& plan, const FrameTextur
   bound.reserve(plan.materials.size());
   for (const PlannedMaterial& planned : plan.materials) {
     FrameMaterial& material = bound.emplace_back(planned.frame);
-    ForEachSlot(planned.frame.features, [&](Slot slot) {
+    ForEachSlotOf(planned.frame.model, planned.frame.features, [&](const SlotInfo& info) {
+      const Slot slot = info.slot;
       const TextureData* const data = textures.entries[std::size_t(planned.textures[IndexOf(slot)])].data.get();
       material.textures[IndexOf(slot)].data = data;
       if (data == nullptr) material.features &= ~BitOf(slot);

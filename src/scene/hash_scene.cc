@@ -7,6 +7,7 @@
 #include "base/sha256.h"
 #include "facet/error.h"
 #include "facet/scene.h"
+#include "material/model_parameters.h"
 #include "material/parameters.h"
 
 namespace facet {
@@ -75,7 +76,15 @@ class Description {
       for (const char c : std::string_view(parameter.gltf_name)) Add(c);
       Add(value);
     });
+    if (m.parameters == nullptr) return;
+    ForEachParameterOf(*m.parameters, [&](const auto& parameter, const auto& value) {
+      for (const char c : std::string_view(parameter.name)) Add(c);
+      Add(value);
+    });
   }
+  template <class Value>
+  void Fields(const Textured<Value>& t) { All(t.value, t.texture, t.channel); }
+  void Fields(const TangentSpaceNormal& n) { All(n.value, n.texture, n.scale); }
   void Fields(const Primitive& p) { All(p.topology, p.material, p.variant_materials); }  // the rest is geometry
   void Fields(const Mesh& m) { All(m.primitives, m.weights); }
   void Fields(const Skin& s) { All(s.joints, s.inverse_bind); }

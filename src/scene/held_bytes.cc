@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "facet/models.h"
+
 namespace facet {
 namespace {
 
@@ -41,7 +43,9 @@ std::uint64_t HeldBytes(const Scene& scene) {
     bytes += Name(image.name) + (image.source != nullptr ? image.source->BytesHeld() : 0);
   }
   for (const Texture& texture : scene.textures) bytes += Name(texture.name);
-  for (const Material& material : scene.materials) bytes += Name(material.name);
+  for (const Material& material : scene.materials) {
+    bytes += Name(material.name) + (material.parameters != nullptr ? sizeof(ModelParameters) : 0);
+  }
   for (const Mesh& mesh : scene.meshes) {
     bytes += Name(mesh.name) + Array(mesh.primitives) + Array(mesh.weights);
     for (const Primitive& primitive : mesh.primitives) bytes += HeldBytes(primitive);

@@ -10,7 +10,7 @@
 #include "base/memory_budget.h"
 #include "base/parallel.h"
 #include "facet/error.h"
-#include "material/slots.h"
+#include "material/model_parameters.h"
 #include "scene/bounds.h"
 #include "scene/deform.h"
 #include "scene/geometry.h"
@@ -77,14 +77,13 @@ int MaterialOf(const Primitive& primitive, int variant) {
 // a texture has the tangents of the first UV set.
 const TextureRef* TangentSpaceTexture(const Scene& scene, const Material& material, MaterialFeatures among) {
   const MaterialFeatures read = FeaturesOf(material) & among;
-  for (const SlotInfo& slot : kSlots) {
-    const TextureRef& ref = material.*slot.ref;
-    if (slot.tangent_space && (read & BitOf(slot.slot)) != 0 && scene.textures[std::size_t(ref.texture)].image >= 0) {
-      return &ref;
-    }
+  for (const SlotInfo& slot : SlotsOf(material.model)) {
+    if (!slot.tangent_space || (read & BitOf(slot.slot)) == 0) continue;
+    const TextureRef& ref = TextureIn(material, slot);
+    if (scene.textures[std::size_t(ref.texture)].image >= 0) return &ref;
   }
   static const TextureRef first_uv_set;
-  return (read & kAnisotropy) != 0 ? &first_uv_set : nullptr;
+  return (read & (kAnisotropy | kTangents)) != 0 ? &first_uv_set : nullptr;
 }
 
 Shape MakeShape(const Scene& scene, const Primitive& primitive, int material, const PoseSettings& settings) {

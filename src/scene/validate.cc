@@ -9,6 +9,7 @@
 #include "facet/error.h"
 #include "facet/scene.h"
 #include "material/models/models.h"
+#include "material/model_parameters.h"
 #include "material/parameters.h"
 
 namespace facet {
@@ -133,7 +134,37 @@ void CheckParameter(const Value& value, const Parameter<Value>& parameter, const
   }
 }
 
+template <class Value>
+void CheckModelParameter(const Value& value, const RowOptions& options, const char* name, const Scene& scene,
+                         const Where& where) {
+  if constexpr (requires { value.texture; }) {
+    CheckTextureRef(value.texture, scene, where, name);
+    CheckModelParameter(value.value, options, name, scene, where);
+    if constexpr (requires { value.scale; }) CheckRange(value.scale, kAnyNumber.low, kAnyNumber.high, where, name);
+    if constexpr (requires { value.channel; }) {
+      if (value.channel < 0 || value.channel > 3) Fail(where, std::string(name) + " names no channel");
+    }
+  } else if constexpr (std::is_enum_v<Value>) {
+    if (std::size_t(value) >= options.words.size()) Fail(where, std::string(name) + " is no value of its enumeration");
+  } else if constexpr (!std::is_same_v<Value, bool>) {
+    if constexpr (std::is_same_v<Value, float>) {
+      if (value == options.range.exception) return;
+    }
+    CheckRange(value, options.range.low, options.range.high, where, name);
+  }
+}
+
 void CheckMaterial(const Material& material, const Scene& scene, const Where& where) {
+  const bool has_own = HasParameters(material.model);
+  if (has_own != (material.parameters != nullptr) ||
+      (has_own && material.model != ModelOf(*material.parameters))) {
+    Fail(where, "its parameters are not those of its shading model");
+  }
+  if (has_own) {
+    ForEachParameterOf(*material.parameters, [&](const auto& parameter, const auto& value) {
+      CheckModelParameter(value, parameter, parameter.name, scene, where);
+    });
+  }
   ForEachParameter([&](const auto& parameter) {
     if (!parameter.alternative) CheckParameter(material.*parameter.member, parameter, scene, where);
   });

@@ -118,6 +118,9 @@ constexpr std::array kOptions = {
                   }},
     RequestOption{"variant", kScene, "NAME|INDEX", "", "A material variant of the file [none]",
                   [](RenderRequest& r, Text, Text text) { r.variant = text; }},
+    RequestOption{"materials", kScene, "FILE", "",
+                  "Other shading models for its materials, as a JSON\nfile says (docs/material-files.md) [its own]",
+                  [](RenderRequest& r, Text, Text text) { r.materials = text; }},
     RequestOption{"without", kScene, "LIST", "none", kFeatureHelp.View(),
                   [](RenderRequest& r, Text where, Text text) { r.settings.without = ParseFeatures(where, text); }},
 
@@ -234,6 +237,7 @@ std::map<std::string, std::string> SpelledOut(const RenderRequest& request) {
   }
   for (const auto& [name, text] : request.given) all[name] = text;
   if (request.environment) all["environment"] = request.environment->filename().string();
+  if (request.materials) all["materials"] = request.materials->filename().string();
   return all;
 }
 
@@ -250,6 +254,28 @@ void RefuseContradictions(const RenderRequest& request) {
   }
 }
 
+namespace {
+
+// The path of an option's file, which a user or a file names.
+std::filesystem::path PathOf(const std::filesystem::path& name, const NamedBy& named_by, const char* option) {
+  try {
+    return named_by.file.empty() ? name : DataPath(named_by.file, name, named_by.root);
+  } catch (const Error& error) {
+    throw Error(error.code(), error.message(), option, error.hint());
+  }
+}
+
+}  // namespace
+
+void ApplyMaterials(const RenderRequest& request, LoadedScene& loaded, const LoadOptions& options,
+                    const NamedBy& named_by) {
+  if (!request.materials) return;
+  const LoadReport read =
+      ApplyMaterialFile(loaded.scene, PathOf(*request.materials, named_by, "--materials"), options);
+  loaded.report.file_bytes += read.file_bytes;
+  loaded.report.files.insert(loaded.report.files.end(), read.files.begin(), read.files.end());
+}
+
 RenderSettings ResolveRequest(const RenderRequest& request, const Scene& scene, const NamedBy& named_by,
                               const std::filesystem::path& cache) {
   RenderSettings settings = request.settings;
@@ -262,12 +288,7 @@ RenderSettings ResolveRequest(const RenderRequest& request, const Scene& scene, 
   if (request.variant) settings.variant = Choose("--variant", "variant", *request.variant, scene.variants);
   if (request.environment) {
     const bool by_user = named_by.file.empty();
-    std::filesystem::path path = *request.environment;
-    try {
-      if (!by_user) path = DataPath(named_by.file, path, named_by.root);
-    } catch (const Error& error) {
-      throw Error(error.code(), error.message(), "--environment", error.hint());
-    }
+    const std::filesystem::path path = PathOf(*request.environment, named_by, "--environment");
     if (!cache.empty()) {
       settings.environment.source = OpenEnvironment(path, cache);
     } else {
@@ -285,6 +306,7 @@ RenderInputs LoadInputs(const std::filesystem::path& scene, const RenderRequest&
                         const NamedBy& named_by) {
   RefuseContradictions(request);
   RenderInputs inputs{LoadGltf(scene, options), {}};
+  ApplyMaterials(request, inputs.loaded, options, named_by);
   RenderRequest limited = request;
   limited.settings.memory_limit = options.memory_limit;
   inputs.settings = ResolveRequest(limited, inputs.loaded.scene, named_by);

@@ -26,6 +26,7 @@ struct RenderRequest {
   std::optional<Orbit> orbit;
   std::optional<glm::dvec3> target;
   std::optional<double> fov_degrees;
+  std::optional<std::filesystem::path> materials;         // a material file
   std::optional<std::filesystem::path> environment;       // an image file; none: see settings.environment.kind
   std::map<std::string, std::string, std::less<>> given;  // option name -> text, as given
 
@@ -57,11 +58,16 @@ std::map<std::string, std::string> SpelledOut(const RenderRequest& request);
 // Throws Error(InvalidUsage) for options that contradict each other.
 void RefuseContradictions(const RenderRequest& request);
 
-// The origin of the environment image's name. Empty: a user. Otherwise a file that names it, relative to the file's
+// The origin of the names of the environment's image and of the material file. Empty: a user. Otherwise a file that names it, relative to the file's
 // folder and within that folder or `root` (see DataPath() of base/input_file.h).
 struct NamedBy {
   std::filesystem::path file, root;
 };
+
+// Gives the scene the materials of the request's material file, if there is one, and adds to the report what was read.
+// Throws what ApplyMaterialFile() throws.
+void ApplyMaterials(const RenderRequest& request, LoadedScene& loaded, const LoadOptions& options = {},
+                    const NamedBy& named_by = {});
 
 // Resolves the settings for a scene: names become indices, and the environment's image is loaded, or, if there is a
 // `cache` of prefiltered environments, only opened. Throws Error: InvalidUsage for names that the scene does not have;

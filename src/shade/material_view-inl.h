@@ -44,7 +44,7 @@ class TextureReader {
     empty_ = nullptr;
     for (summed_count_ = 0; left.count > 0;) {
       Find(*left.textures[0]);
-      const TextureData* together[kSlotCount];
+      const TextureData* together[kMaxSlots];
       const BoundTexture* emission = nullptr;
       int count = 0, others = 0;
       for (int k = 0; k < left.count; ++k) {
@@ -84,7 +84,7 @@ class TextureReader {
 
  private:
   struct TexturesOf {
-    const BoundTexture* textures[kSlotCount];
+    const BoundTexture* textures[kMaxSlots];
     int count = 0;
     HWY_INLINE explicit TexturesOf(const FrameMaterial& m) {
       for (MaterialFeatures left = m.features & kTextureBits; left != 0; left &= left - 1) {
@@ -104,8 +104,8 @@ class TextureReader {
   const BoundTexture* made_for_ = nullptr;
   TextureTaps<T> taps_;
   int summed_count_ = 0;
-  const BoundTexture* summed_[kSlotCount];  // the textures that ReadAll() has summed
-  TexelSums<T> sums_[kSlotCount];
+  const BoundTexture* summed_[kMaxSlots];  // the textures that ReadAll() has summed
+  TexelSums<T> sums_[kMaxSlots];
   const BoundTexture* empty_ = nullptr;  // the texture that ReadAll() found to be empty
 };
 
@@ -133,8 +133,7 @@ class MaterialView {
     TextureReader<T> own(s);
     TextureReader<T>& textures = ReaderOf(s, own);
     T alpha = T(m_.factors.base_color[3]) * s.color.w;
-    if (ReadsAlpha()) alpha = alpha * textures.template Read<kA>(m_.Texture(Slot::BaseColor)).w;
-    return alpha;
+    return m_.ReadsCoverage() ? alpha * Coverage(textures) : alpha;
   }
 
   // The shading normal, unit: the interpolated normal, perturbed by the normal texture.
@@ -148,6 +147,16 @@ class MaterialView {
     TextureReader<T> own(s);
     TextureReader<T>& textures = ReaderOf(s, own);
     return ReadEmission<T>(Source{m_, s, textures});
+  }
+
+  // For models that are not glTF's. Calls body(source, base), with a Source as material/read-inl.h has it, and the base
+  // colour as BaseColor() gives it.
+  template <class Body>
+  HWY_INLINE auto Read(const Surface<T>& s, const Body& body) const {
+    TextureReader<T> own(s);
+    TextureReader<T>& textures = ReaderOf(s, own);
+    textures.ReadAll(m_);
+    return body(Source{m_, s, textures}, BaseColor(s, textures));
   }
 
   // All inputs of the metallic-roughness model, or of the specular-glossiness model. `kPossible`: the lobes that are
@@ -175,6 +184,8 @@ class MaterialView {
 
     HWY_INLINE bool Has(MaterialFeatures feature) const { return m.Has(feature); }
     HWY_INLINE const MaterialFactors& Factors() const { return m.factors; }
+    template <class Block>
+    HWY_INLINE const Block& Parameters() const { return m.Parameters<Block>(); }
     template <int kChannels>
     HWY_INLINE Vec4<T> Read(Slot slot) const {
       return textures.template Read<kChannels>(m.Texture(slot));
@@ -188,14 +199,24 @@ class MaterialView {
     return ahead_ != nullptr && ahead_->IsOf(s) ? *ahead_ : own;
   }
 
-  HWY_INLINE bool ReadsAlpha() const { return m_.Reads(Slot::BaseColor) && m_.alpha_mode != AlphaMode::Opaque; }
+  // The texel of the coverage.
+  HWY_INLINE T Coverage(TextureReader<T>& textures) const {
+    const BoundTexture& texture = m_.Texture(m_.coverage_slot);
+    switch (m_.coverage_channel) {
+      case 0: return textures.template Read<kR>(texture).x;
+      case 1: return textures.template Read<kG>(texture).y;
+      case 2: return textures.template Read<kB>(texture).z;
+      default: return textures.template Read<kA>(texture).w;
+    }
+  }
 
   HWY_INLINE Vec4<T> BaseColor(const Surface<T>& s, TextureReader<T>& textures) const {
     Vec4<T> c{T(m_.factors.base_color[0]) * s.color.x, T(m_.factors.base_color[1]) * s.color.y,
               T(m_.factors.base_color[2]) * s.color.z, T(m_.factors.base_color[3]) * s.color.w};
+    if (m_.coverage_slot != Slot::BaseColor && m_.ReadsCoverage()) c.w = c.w * Coverage(textures);
     if (!m_.Reads(Slot::BaseColor)) return c;
     Vec4<T> texel = textures.template Read<kRgba>(m_.Texture(Slot::BaseColor));
-    if (!ReadsAlpha()) texel.w = T(1.0f);
+    if (m_.coverage_slot != Slot::BaseColor || !m_.ReadsCoverage()) texel.w = T(1.0f);
     return c * texel;
   }
 

@@ -21,7 +21,7 @@ namespace HWY_NAMESPACE {
     Surface<Float> surfaces[2];                                   \
     ShadePackets(task, ModelWith<Name, Name::kCore>(), surfaces); \
   }
-FACET_SHADING_MODELS(FACET_MODEL_KERNEL)
+FACET_GLTF_MODELS(FACET_MODEL_KERNEL)
 #undef FACET_MODEL_KERNEL
 
 #define FACET_MODEL_KERNEL(Name)                                \
@@ -105,7 +105,7 @@ HWY_AFTER_NAMESPACE();
 namespace facet {
 
 #define FACET_MODEL_EXPORT(Name) FACET_EXPORT(Name##Kernel);
-FACET_SHADING_MODELS(FACET_MODEL_EXPORT)
+FACET_GLTF_MODELS(FACET_MODEL_EXPORT)
 #undef FACET_MODEL_EXPORT
 #define FACET_MODEL_EXPORT(Name)       \
   FACET_EXPORT(Layered##Name##Kernel); \
@@ -118,7 +118,6 @@ FACET_EXPORT(BackgroundKernel);
 
 namespace {
 
-// Unlit materials have no layers.
 void ShadeLayered(const ShadeTask& task) {
   switch (task.material->model) {
 #define FACET_MODEL_CASE(Name)                                                            \
@@ -127,18 +126,27 @@ void ShadeLayered(const ShadeTask& task) {
                                         : FACET_DISPATCH(Layered##Name##Kernel)(task);
     FACET_MODELS_SEEN_THROUGH(FACET_MODEL_CASE)
 #undef FACET_MODEL_CASE
-    case ShadingModel::Unlit: break;
+    default: break;
   }
+}
+
+// Whether the material needs the kernel with layers. Models that are not glTF's have only one.
+bool IsLayered(const FrameMaterial& material) {
+  return material.Has(kLayerFeatures) && (material.parameters == nullptr || material.is_seen_through);
 }
 
 }  // namespace
 
 void ShadeFragments(const ShadeTask& task) {
-  if (task.material->Has(kLayerFeatures)) return ShadeLayered(task);
+  if (IsLayered(*task.material)) return ShadeLayered(task);
   switch (task.material->model) {
 #define FACET_MODEL_CASE(Name) \
   case ShadingModel::Name: return FACET_DISPATCH(Name##Kernel)(task);
-    FACET_SHADING_MODELS(FACET_MODEL_CASE)
+    FACET_GLTF_MODELS(FACET_MODEL_CASE)
+#undef FACET_MODEL_CASE
+#define FACET_MODEL_CASE(Name) \
+  case ShadingModel::Name: return Shade##Name(task);
+    FACET_OWN_MODELS(FACET_MODEL_CASE)
 #undef FACET_MODEL_CASE
   }
 }

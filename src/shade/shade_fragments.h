@@ -8,6 +8,11 @@ namespace facet {
 // Shades fragments by the material's shading model. Fills all outputs of `task`.
 void ShadeFragments(const ShadeTask& task);
 
+// The same for the models that are not glTF's: each has its kernel in a file of its own.
+void ShadeLecture(const ShadeTask& task);
+void ShadeFilament(const ShadeTask& task);
+void ShadeEnterprise(const ShadeTask& task);
+
 // Computes alpha only, for the alpha test. Fills task.alpha.
 void ShadeAlpha(const ShadeTask& task);
 

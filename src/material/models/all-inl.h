@@ -7,6 +7,9 @@
 #define FACET_MATERIAL_MODELS_ALL_INL_H_
 #endif
 
+#include "material/models/enterprise-inl.h"
+#include "material/models/filament-inl.h"
+#include "material/models/lecture-inl.h"
 #include "material/models/metallic_roughness-inl.h"
 #include "material/models/models.h"
 #include "material/models/specular_glossiness-inl.h"

@@ -11,7 +11,10 @@
 #include "material/slots.h"
 
 // Names of functors, in the order of ShadingModel.
-#define FACET_SHADING_MODELS(X) X(MetallicRoughness) X(SpecularGlossiness) X(Unlit)
+#define FACET_SHADING_MODELS(X) FACET_GLTF_MODELS(X) FACET_OWN_MODELS(X)
+#define FACET_GLTF_MODELS(X) X(MetallicRoughness) X(SpecularGlossiness) X(Unlit)
+// Those that have parameters of their own.
+#define FACET_OWN_MODELS(X) X(Lecture) X(Filament) X(Enterprise)
 
 // Those of them that have layers, and that light can pass through.
 #define FACET_MODELS_SEEN_THROUGH(X) X(MetallicRoughness) X(SpecularGlossiness)
@@ -20,9 +23,9 @@ namespace facet {
 
 struct ModelInfo {
   ShadingModel model;
-  const char* word;                // in the output of `facet info`
+  const char* word;                // in the output of `facet info`, and in material files
   const char* gltf_extension;      // the extension that selects it; null: core glTF
-  MaterialFeatures reads;          // bits of the texture slots and features that it reads
+  MaterialFeatures reads;          // bits of glTF's texture slots and features that it reads
   bool reads_light;
 };
 
@@ -35,6 +38,9 @@ inline constexpr auto kModels = std::to_array<ModelInfo>({
     {ShadingModel::SpecularGlossiness, "specular-glossiness", "KHR_materials_pbrSpecularGlossiness",
      ~kMetallicRoughnessOnly, true},
     {ShadingModel::Unlit, "unlit", "KHR_materials_unlit", BitOf(Slot::BaseColor), false},
+    {ShadingModel::Lecture, "lecture", nullptr, 0, true},
+    {ShadingModel::Filament, "filament", nullptr, 0, true},
+    {ShadingModel::Enterprise, "enterprise", nullptr, 0, true},
 });
 
 #define FACET_MODEL_OF(Name) ShadingModel::Name,

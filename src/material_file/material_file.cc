@@ -1,0 +1,344 @@
+// ApplyMaterialFile() of facet/load.h: materials of a scene get other shading models (docs/material-files.md).
+#include <fnmatch.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/input_file.h"
+#include "base/json_bounds.h"
+#include "base/memory_budget.h"
+#include "base/number_text.h"
+#include "facet/load.h"
+#include "facet/models.h"
+#include "gltf/pictures.h"
+#include "gltf/strict_json.h"
+#include "material/model_parameters.h"
+#include "material/models/models.h"
+#include "math/round_to_float.h"
+
+namespace facet {
+namespace {
+
+std::string Listed(const std::vector<std::string>& names) {
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+  return list;
+}
+
+// --- Values ---------------------------------------------------------------------------------------------------------
+
+std::string InWords(ParameterRange range) {
+  const std::string low = ShortNumber(double{range.low}), high = ShortNumber(double{range.high});
+  std::string text = std::isinf(range.high) ? (std::isinf(range.low) ? "any number" : low + " or more")
+                                            : low + " to " + high;
+  if (!std::isnan(range.exception)) text += ", or " + ShortNumber(double{range.exception});
+  return text;
+}
+
+void ReadValue(const JsonValue& value, const RowOptions& options, float& out) {
+  const double number = value.Expect(value.json.is_number(), "number").json.get<double>();
+  out = RoundToFiniteFloat(number);
+  const ParameterRange& range = options.range;
+  if (out != range.exception && !(number >= double{range.low} && number <= double{range.high})) {
+    value.Fail(ShortNumber(number) + " is out of range", InWords(range));
+  }
+}
+
+template <int kLength>
+void ReadValue(const JsonValue& value, const RowOptions& options, glm::vec<kLength, float>& out) {
+  const std::size_t size = value.Expect(value.json.is_array(), "list of numbers").json.size();
+  const std::size_t least = kLength == 4 ? 3 : std::size_t{kLength};
+  if (size < least || size > std::size_t{kLength}) {
+    value.Fail("has " + std::to_string(size) + " numbers", kLength == 4 ? "give 3 or 4" : "give 3");
+  }
+  for (std::size_t c = 0; c < size; ++c) {
+    ReadValue({value.json[c], value.pointer / c, value.file}, options, out[static_cast<int>(c)]);
+  }
+}
+
+void ReadValue(const JsonValue& value, const RowOptions&, bool& out) {
+  out = value.Expect(value.json.is_boolean(), "true or false").json.get<bool>();
+}
+
+template <class Value>
+  requires std::is_enum_v<Value>
+void ReadValue(const JsonValue& value, const RowOptions& options, Value& out) {
+  const auto place = std::ranges::find(options.words, value.Text());
+  if (place == options.words.end()) {
+    value.Fail(Quoted(value.Text()) + " is unknown",
+               "use one of " + Listed({options.words.begin(), options.words.end()}));
+  }
+  out = static_cast<Value>(place - options.words.begin());
+}
+
+template <class Value>
+  requires kHasTexture<Value>
+void ReadValue(const JsonValue& value, const RowOptions& options, Value& out) {
+  ReadValue(value, options, out.value);
+}
+
+// What a parameter is where only its texture is given: nothing is taken away from it.
+void MakeNeutral(float& value) { value = 1.0f; }
+void MakeNeutral(glm::vec3& value) { value = glm::vec3(1.0f); }
+void MakeNeutral(glm::vec4& value) { value = glm::vec4(1.0f); }
+
+// --- The file -------------------------------------------------------------------------------------------------------
+
+class MaterialFile {
+ public:
+  MaterialFile(Scene& scene, const std::filesystem::path& path, const LoadOptions& options, LoadReport& report)
+      : scene_(scene), path_(path), name_(Printable(path.string())), root_(options.root), report_(report) {}
+
+  void Apply() {
+    const Bytes bytes = ReadFile(path_);
+    const std::string text(bytes.Text());
+    const MemoryLease lease(JsonMemory(text), 2, "JSON", name_);
+    const StrictJson json = ParseStrictJson(text, name_);
+    report_.file_bytes = bytes.size;
+    report_.files.push_back(path_);
+
+    const JsonValue root{json, {}, name_};
+    root.ExpectObject(std::array{"$schema", "materials"});
+    if (!root.Has("materials")) root.Fail("has no list \"materials\"");
+    const JsonValue entries = root["materials"];
+    entries.Expect(entries.json.is_array(), "list");
+    for (std::size_t i = 0; i < entries.json.size(); ++i) {
+      ReadEntry({entries.json[i], entries.pointer / i, name_});
+    }
+  }
+
+ private:
+  void ReadEntry(const JsonValue& entry) {
+    entry.ExpectObject(
+        std::array{"match", "model", "parameters", "textures", "alphaMode", "alphaCutoff", "doubleSided"});
+    for (const char* key : {"match", "model"}) {
+      if (!entry.Has(key)) entry.Fail(std::string("has no \"") + key + "\"");
+    }
+    Material changes;
+    changes.model = ReadModel(entry["model"]);
+    auto parameters = DefaultsOf(changes.model);
+    std::visit([&](auto& block) { ReadBlock(entry, block, changes); }, parameters);
+    changes.parameters = std::make_shared<const ModelParameters>(std::move(parameters));
+    ReadCommon(entry, changes);
+    for (const std::size_t index : Matching(entry["match"])) {
+      Material& material = scene_.materials[index];
+      Material changed = changes;
+      changed.name = material.name;
+      if (!states_alpha_mode_) changed.alpha_mode = material.alpha_mode;
+      if (!entry.Has("alphaCutoff")) changed.alpha_cutoff = material.alpha_cutoff;
+      if (!entry.Has("doubleSided")) changed.double_sided = material.double_sided;
+      material = changed;
+    }
+  }
+
+  static ShadingModel ReadModel(const JsonValue& value) {
+    std::vector<std::string> words;
+    for (const ModelInfo& model : kModels) {
+      if (!HasParameters(model.model)) continue;
+      if (value.Text() == model.word) return model.model;
+      words.emplace_back(model.word);
+    }
+    value.Fail("there is no model " + Quoted(value.Text()), "use one of " + Listed(words));
+  }
+
+  // The materials of the scene that the pattern stands for, or each of a list of patterns.
+  std::vector<std::size_t> Matching(const JsonValue& match) {
+    std::vector<std::size_t> found;
+    if (!match.json.is_array()) {
+      AddMatching(match, found);
+    } else {
+      for (std::size_t i = 0; i < match.json.size(); ++i) {
+        AddMatching({match.json[i], match.pointer / i, name_}, found);
+      }
+    }
+    return found;
+  }
+
+  void AddMatching(const JsonValue& pattern, std::vector<std::size_t>& found) {
+    const std::string& text = pattern.Text();
+    const auto matches = [&](const std::string& name) { return fnmatch(text.c_str(), name.c_str(), 0) == 0; };
+    if (matches("")) NameDefaultMaterial();
+    const std::size_t before = found.size();
+    for (std::size_t i = 0; i < scene_.materials.size(); ++i) {
+      if (matches(scene_.materials[i].name)) found.push_back(i);
+    }
+    if (found.size() != before) return;
+    constexpr std::size_t kMostNamed = 12;
+    std::vector<std::string> names;
+    for (const Material& material : scene_.materials) {
+      if (names.size() == kMostNamed) break;
+      names.push_back(Quoted(material.name));
+    }
+    if (names.size() < scene_.materials.size()) names.emplace_back("...");
+    pattern.Fail("no material's name matches " + Quoted(text),
+                 names.empty() ? "the scene has no materials" : "the scene has " + Listed(names));
+  }
+
+  // Primitives without a material get one of their own, with an empty name.
+  void NameDefaultMaterial() {
+    int index = -1;
+    for (Mesh& mesh : scene_.meshes) {
+      for (Primitive& primitive : mesh.primitives) {
+        if (primitive.material >= 0) continue;
+        if (index < 0) {
+          index = static_cast<int>(scene_.materials.size());
+          scene_.materials.emplace_back();
+        }
+        primitive.material = index;
+      }
+    }
+  }
+
+  template <class Block>
+  void ReadBlock(const JsonValue& entry, Block& block, Material& changes) {
+    const StrictJson none = StrictJson::object();
+    const auto member = [&](const char* key) {
+      return entry.Has(key) ? entry[key] : JsonValue{none, entry.pointer / key, name_};
+    };
+    const JsonValue parameters = member("parameters"), textures = member("textures");
+    RefuseUnknown<Block>(parameters, textures);
+    states_alpha_mode_ = false;
+    ForEachParameterOf(block, [&]<class Value>(const auto& parameter, Value& value) {
+      const bool has_value = parameters.Has(parameter.name);
+      if (has_value) ReadValue(parameters[parameter.name], parameter, value);
+      bool has_texture = false;
+      if constexpr (kHasTexture<Value>) {
+        has_texture = textures.Has(parameter.name);
+        if (has_texture) {
+          ReadTexture(textures[parameter.name], value);
+          if constexpr (!std::is_same_v<Value, TangentSpaceNormal>) {
+            if (!has_value) MakeNeutral(value.value);
+          }
+        }
+      }
+      if (parameter.is_coverage && (has_value || has_texture)) {
+        changes.alpha_mode = AlphaMode::Blend;
+        states_alpha_mode_ = true;
+      }
+    });
+  }
+
+  template <class Block>
+  static void RefuseUnknown(const JsonValue& parameters, const JsonValue& textures) {
+    std::vector<const char*> all, textured;
+    ForEachRow(std::type_identity<Block>(), [&]<class Value>(const ModelParameter<Block, Value>& parameter) {
+      all.push_back(parameter.name);
+      if (kHasTexture<Value>) textured.push_back(parameter.name);
+    });
+    parameters.ExpectObject(all);
+    textures.ExpectObject(textured);
+  }
+
+  void ReadCommon(const JsonValue& entry, Material& changes) {
+    if (entry.Has("alphaMode")) {
+      static constexpr std::array kWords = {"OPAQUE", "MASK", "BLEND"};
+      ReadValue(entry["alphaMode"], {.words = kWords}, changes.alpha_mode);
+      states_alpha_mode_ = true;
+    }
+    if (entry.Has("alphaCutoff")) ReadValue(entry["alphaCutoff"], {.range = kNotNegative}, changes.alpha_cutoff);
+    if (entry.Has("doubleSided")) ReadValue(entry["doubleSided"], {}, changes.double_sided);
+  }
+
+  // --- Textures -----------------------------------------------------------------------------------------------------
+
+  template <class Value>
+  void ReadTexture(const JsonValue& texture, Value& value) {
+    if (texture.json.is_string()) {
+      value.texture.texture = TextureFor(texture, {});
+      return;
+    }
+    std::vector<const char*> keys = {"image", "texCoord", "offset", "scale", "rotation", "wrap", "filter"};
+    constexpr bool kIsNumber = std::is_same_v<Value, Textured<float>>;
+    constexpr bool kIsNormal = std::is_same_v<Value, TangentSpaceNormal>;
+    if (kIsNumber) keys.push_back("channel");
+    if (kIsNormal) keys.push_back("strength");
+    texture.ExpectObject(keys);
+    if (!texture.Has("image")) texture.Fail("has no \"image\"");
+    TextureRef& ref = value.texture;
+    ref.texture = TextureFor(texture["image"], ReadSampler(texture));
+    if (texture.Has("texCoord")) {
+      float set = 0.0f;
+      ReadValue(texture["texCoord"], {.range = {0.0f, 65535.0f}}, set);
+      if (set != std::floor(set)) texture["texCoord"].Fail("is no UV set", "0 or more");
+      ref.tex_coord = static_cast<int>(set);
+    }
+    if (texture.Has("offset")) ReadPair(texture["offset"], ref.offset);
+    if (texture.Has("scale")) ReadPair(texture["scale"], ref.scale);
+    if (texture.Has("rotation")) ReadValue(texture["rotation"], {.range = kAnyNumber}, ref.rotation);
+    if constexpr (kIsNumber) {
+      static constexpr std::array kWords = {"r", "g", "b", "a"};
+      enum class Channel : std::int8_t { R, G, B, A } channel{};
+      if (texture.Has("channel")) ReadValue(texture["channel"], {.words = kWords}, channel);
+      value.channel = static_cast<std::int8_t>(channel);
+    }
+    if constexpr (kIsNormal) {
+      if (texture.Has("strength")) ReadValue(texture["strength"], {.range = kAnyNumber}, value.scale);
+    }
+  }
+
+  static void ReadPair(const JsonValue& value, glm::vec2& out) {
+    if (!value.json.is_array() || value.json.size() != 2) value.Fail("is no pair of numbers");
+    for (int c = 0; c < 2; ++c) {
+      ReadValue({value.json[std::size_t(c)], value.pointer / std::size_t(c), value.file}, {.range = kAnyNumber}, out[c]);
+    }
+  }
+
+  static Sampler ReadSampler(const JsonValue& texture) {
+    Sampler sampler;
+    if (texture.Has("wrap")) {
+      static constexpr std::array kWords = {"repeat", "mirror", "clamp"};
+      ReadValue(texture["wrap"], {.words = kWords}, sampler.wrap_u);
+      sampler.wrap_v = sampler.wrap_u;
+    }
+    if (texture.Has("filter")) {
+      static constexpr std::array kWords = {"nearest", "linear"};
+      ReadValue(texture["filter"], {.words = kWords}, sampler.magnification);
+      sampler.minification = sampler.magnification;
+    }
+    return sampler;
+  }
+
+  int TextureFor(const JsonValue& picture, const Sampler& sampler) {
+    std::filesystem::path path;
+    try {
+      path = DataPath(path_, picture.Text(), root_);
+    } catch (const Error& error) {
+      picture.Fail(error.message(), error.hint());
+    }
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(path, ignored)) picture.Fail("there is no file " + Quoted(path.string()));
+    const auto [known, is_new] = images_.try_emplace(path.string(), static_cast<int>(scene_.images.size()));
+    if (is_new) {
+      scene_.images.push_back({path.filename().string(), gltf::OpenPicture(path)});
+      report_.files.push_back(path);
+    }
+    scene_.textures.push_back({path.filename().string(), known->second, sampler});
+    return static_cast<int>(scene_.textures.size()) - 1;
+  }
+
+  Scene& scene_;
+  const std::filesystem::path& path_;
+  const std::string name_;
+  const std::filesystem::path root_;
+  LoadReport& report_;
+  std::map<std::string, int> images_;  // by path: index into Scene::images
+  bool states_alpha_mode_ = false;     // of the entry that is being read
+};
+
+}  // namespace
+
+LoadReport ApplyMaterialFile(Scene& scene, const std::filesystem::path& file, const LoadOptions& options) {
+  MemoryBudget budget(options.memory_limit);
+  const MemoryBudget::Scope scope(budget);
+  LoadReport report;
+  Scene changed = scene;
+  MaterialFile(changed, file, options, report).Apply();
+  scene = std::move(changed);
+  return report;
+}
+
+}  // namespace facet

@@ -1,0 +1,33 @@
+// The kernel of the model "lecture".
+#include "material/models/models.h"
+#include "shade/shade_fragments.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "shade/lecture_kernel.cc"
+#include "hwy/foreach_target.h"
+// Must come after foreach_target.h.
+#include "facet/shader/dispatch.h"
+#include "material/models/lecture-inl.h"
+#include "shade/shade_packets-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace facet {
+namespace HWY_NAMESPACE {
+
+void LectureKernel(const ShadeTask& task) {
+  Surface<Float> surfaces[2];
+  ShadePackets(task, Lecture(), surfaces);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace facet
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace facet {
+
+FACET_EXPORT(LectureKernel);
+void ShadeLecture(const ShadeTask& task) { FACET_DISPATCH(LectureKernel)(task); }
+
+}  // namespace facet
+#endif
