@@ -118,6 +118,7 @@ Json ToJson(const MaterialSummary& summary) {
                {"unlit", material.model == ShadingModel::Unlit}};
   AddNumbers(material, json);
   json["textures"] = std::move(textures);
+  if (!summary.ignored.empty()) json["ignored"] = summary.ignored;
   json["primitives"] = summary.primitives;
   return json;
 }

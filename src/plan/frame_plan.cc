@@ -34,7 +34,8 @@ class Planner {
   }
 
   FramePlan plan;
-  FeatureSet stated;  // features that drawn materials state, whether or not they are visible
+  FeatureSet stated;         // features that drawn materials state, whether or not they are visible
+  FeatureSet stated_by_lit;  // those that lit ones do
 
  private:
   PlannedMaterial Plan(Material material, int index, bool on_surface, bool colors, bool flat) {
@@ -59,7 +60,8 @@ class Planner {
     f.is_seen_through = f.Has(kTransmission) && (f.shader == nullptr || f.shader->Transmits());
     if (!f.is_seen_through) {
       // A user's shader that knows nothing of what is behind a surface gets the material without transmission.
-      f.features &= ~(kTransmission | kVolume | kDispersion | BitOf(Slot::Transmission) | BitOf(Slot::Thickness));
+      f.features &= ~(kTransmission | kDispersion | BitOf(Slot::Transmission));
+      if (!f.Has(kDiffuseTransmission)) f.features &= ~(kVolume | BitOf(Slot::Thickness));
     }
     ForEachSlot(f.features, [&](Slot slot) { BindTexture(material, slot, planned); });
     return planned;
@@ -91,6 +93,7 @@ class Planner {
     const auto disable = [&](Feature feature, bool is_stated, auto&& remove) {
       if (!is_stated) return;
       stated.Add(feature);
+      if (m.model != ShadingModel::Unlit) stated_by_lit.Add(feature);
       if (settings_.without.Has(feature)) remove();
     };
     for (const SlotInfo& slot : kSlots) {
@@ -186,7 +189,9 @@ FramePlan MakeFramePlan(const Scene& scene, const PosedScene& posed, const Rende
     decide(used, feature, what,
            !planner.stated.Has(feature) ? none
            : asked_out(feature)         ? kOnRequest
-                                        : "shows nothing: unlit materials, factors of 0 or textures without a picture");
+           : !planner.stated_by_lit.Has(feature)
+               ? "only unlit materials state it, and show the base colour alone"
+               : "shows nothing: unlit geometry, factors of 0 or textures without a picture");
   };
 
   for (const SlotInfo& slot : kSlots) {
