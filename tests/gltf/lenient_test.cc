@@ -489,7 +489,7 @@ TEST(Lenient, TexturesWithoutCoordinatesAreNamed) {
   for (const Case& c : {Case{0,
                              {"base colour texture", "metallic-roughness texture", "normal texture",
                               "occlusion texture", "emissive texture"}},
-                        Case{2, {"clear coat texture", "sheen colour texture", "thickness texture"}}, Case{1, {}}}) {
+                        Case{2, {"clear coat texture", "sheen colour texture", "iridescence texture"}}, Case{1, {}}}) {
     for (const bool missing : {false, true}) {
       json file = Everything();
       json& primitive = file["meshes"][0]["primitives"][0];

@@ -152,7 +152,7 @@ const TextureRow kTextures[] = {
 // --- Files with one material ----------------------------------------------------------------------------------------
 
 json FileWith(const json& material) {
-  json extensions = json::array();
+  json extensions = {"KHR_texture_transform"};
   for (const char* name :
        {"anisotropy", "clearcoat", "diffuse_transmission", "dispersion", "emissive_strength", "ior", "iridescence",
         "pbrSpecularGlossiness", "sheen", "specular", "transmission", "unlit", "volume"}) {
