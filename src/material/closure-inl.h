@@ -6,7 +6,8 @@
 //     with a thin film       lobes/iridescence-inl.h
 //   diffuse reflection       lobes/diffuse-inl.h
 //   diffuse transmission     lobes/diffuse_transmission-inl.h
-//   transmission, volume     lobes/transmission-inl.h
+//   transmission             lobes/transmission-inl.h
+//   volume behind both       lobes/volume-inl.h
 //
 // Each layer passes down exactly the share of light that it does not reflect towards the view. The core (Khronos, glTF
 // 2.0 Specification, appendix B) is reciprocal; a layer over it is not, as in the extensions' own texts. A white base
@@ -34,6 +35,7 @@
 #include "material/lobes/sheen-inl.h"
 #include "material/lobes/specular-inl.h"
 #include "material/lobes/transmission-inl.h"
+#include "material/lobes/volume-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace facet {
@@ -61,6 +63,7 @@ struct MaterialInputs {
   SheenInputs<T> sheen;
   FilmInputs<T> film;
   AnisotropyInputs<T> anisotropy;
+  VolumeInputs<T> volume;
   TransmissionInputs<T> transmission;
   DiffuseTransmissionInputs<T> diffuse_transmission;
 };
@@ -106,13 +109,15 @@ struct Closure {
     if (Has(kDiffuseTransmission)) {
       diffuse_transmission = DiffuseTransmissionLobe<T>(in.diffuse_transmission, metallic, diffuse);
       if (Has(kTransmission)) diffuse_transmission.color = diffuse_transmission.color * (one - in.transmission.factor);
+      if (Has(kVolume)) diffuse_transmission.color = diffuse_transmission.color * in.volume.Passing();
     }
     if constexpr ((kPossible & kSheen) != 0) {
       if (Has(kSheen)) sheen = SheenLobe<T>(at, in.sheen, lighting);
     }
     if (Has(kClearcoat)) clearcoat = ClearcoatLobe<T>(in.clearcoat, view, lighting);
     if (Has(kTransmission)) {
-      transmission = TransmissionLobe<T>(in.transmission, Has(kVolume), base, metallic, in.perceptual_roughness);
+      transmission = TransmissionLobe<T>(in.transmission, at, base, metallic, in.perceptual_roughness, lighting);
+      if (Has(kVolume)) transmission.color = transmission.color * in.volume.Passing();
       transmission.color = transmission.color * diffuse.left_for_view;
       if (Has(kSheen)) transmission.color = transmission.color * sheen.EnergyLeft();
       if (Has(kClearcoat)) transmission.color = transmission.color * clearcoat.EnergyLeft();

@@ -35,6 +35,11 @@ HWY_INLINE Vec4<T> FetchVec4(const float* p, UniformSetup setup) {
   return {T(p[setup.base]), T(p[setup.base + 1]), T(p[setup.base + 2]), T(p[setup.base + 3])};
 }
 
+template <class T>
+HWY_INLINE T Fetch(const float* p, UniformSetup setup) {
+  return T(p[setup.base]);
+}
+
 // `base`: for each lane the index of its setup times the stride, or UniformSetup.
 template <class T, class Base>
 HWY_INLINE Barycentric<T> InterpolationWeights(const float* setups, Base base, T x, T y) {
@@ -93,6 +98,9 @@ HWY_INLINE void InterpolateFrom(const ShadeTask& task, Base base, T x, T y, Surf
     s.normal = NormalizeOr(s.interpolated_normal, s.view);
   }
   if (material.Has(kTangentSpaceBits)) s.tangent = InterpolateVec4(setups, base, w, AttributeLayout::kTangents, 4);
+  if (material.Has(kVolume)) {
+    s.metres_per_unit = Fetch<T>(setups + AttributeLayout::MetresPerUnit(material.uv_slots), base);
+  }
   for (int slot = 0; slot < material.uv_slots; ++slot) {
     const float* p = setups + AttributeLayout::kTexCoords + 6 * slot;
     const Vec4<T> uv01 = FetchVec4<T>(p, base), uv12 = FetchVec4<T>(p + 2, base);
@@ -106,7 +114,8 @@ HWY_INLINE void InterpolateFrom(const ShadeTask& task, Base base, T x, T y, Surf
 }
 
 // Interpolates the attributes that the material reads for fragment i of `task`, or for all lanes from i on. Others
-// become zero, except for the vertex colour, which becomes 1, and texture coordinates, which are left unchanged.
+// become zero, except for the vertex colour, which becomes 1, and texture coordinates and metres per unit, which are
+// left unchanged.
 template <class T>
 HWY_INLINE void InterpolateSurface(const ShadeTask& task, std::size_t i, Surface<T>& s) {
   const T x = Load<T>(task.x + i), y = Load<T>(task.y + i);

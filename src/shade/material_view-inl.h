@@ -193,6 +193,7 @@ class MaterialView {
     HWY_INLINE const Vec3<T>& Normal() const { return s.normal; }
     HWY_INLINE const Vec3<T>& InterpolatedNormal() const { return s.interpolated_normal; }
     HWY_INLINE const Vec4<T>& Tangent() const { return s.tangent; }
+    HWY_INLINE T MetresPerUnit() const { return s.metres_per_unit; }
   };
 
   HWY_INLINE TextureReader<T>& ReaderOf(const Surface<T>& s, TextureReader<T>& own) const {

@@ -26,6 +26,9 @@ struct Surface {
   Vec3<T> interpolated_normal;
   Vec4<T> tangent;
   Vec4<T> color;     // vertex colour, linear; 1 where there is none
+  // Metres per unit of the mesh, in which thickness is stated, where a volume begins behind the surface; 0 behind its
+  // back faces, which begin none. Zero too if the material has no volume.
+  T metres_per_unit;
   // Texture coordinates of each UV set that the material reads, and their derivatives over one pixel to the right and
   // down. The other sets are zero.
   Vec2<T> uv[kSurfaceUvSlots], duv_dx[kSurfaceUvSlots], duv_dy[kSurfaceUvSlots];
