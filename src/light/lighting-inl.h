@@ -159,6 +159,10 @@ class LightingView {
     return PrefilteredRadiance(*data_->environment, ToEnvironment(direction), perceptual_roughness) *
            T(data_->environment_intensity);
   }
+  // The same of a lobe whose square of alpha is greater by `footprint_alpha2`.
+  HWY_INLINE Vec3<T> Prefiltered(Vec3<T> direction, T perceptual_roughness, T footprint_alpha2) const {
+    return Prefiltered(direction, WidenedLookup(perceptual_roughness, footprint_alpha2));
+  }
   // The environment as a background: from its image if that was kept (keep_image), else from its sharpest map.
   HWY_INLINE Vec3<T> Background(Vec3<T> direction) const {
     return SharpRadiance(*data_->environment, ToEnvironment(direction)) * T(data_->environment_intensity);

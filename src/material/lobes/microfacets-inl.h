@@ -23,6 +23,15 @@ HWY_INLINE T ToNormal(T alpha) {
   return alpha * alpha * (T(1.5f) + alpha * (T(0.35f) - alpha * T(0.95f)));
 }
 
+// The perceptual roughness of a lobe whose square of alpha grows by `footprint_alpha2`; the same bits where that is 0.
+template <class T>
+HWY_INLINE T WidenedRoughness(T perceptual_roughness, T footprint_alpha2) {
+  const MaskOf<T> wider = footprint_alpha2 > T(0.0f);
+  if (!Any(wider)) return perceptual_roughness;
+  const T alpha = AlphaFromPerceptualRoughness(perceptual_roughness);
+  return Select(wider, Sqrt(Sqrt(alpha * alpha + footprint_alpha2)), perceptual_roughness);
+}
+
 template <class T>
 struct Microfacets {
   T alpha{};                 // GGX's width
