@@ -29,24 +29,15 @@ HWY_INLINE Vec3<T> PrefilteredRadiance(const EnvironmentMap& map, Vec3<T> direct
   return Mix(level(at.index), level(at.index + IntOf<T>(1)), at.fraction);
 }
 
-// The roughness to look up for a lobe whose square of alpha grows by `footprint_alpha2`; the same bits where that is 0.
-// The mixture of two levels is wider than the lobe between them: halfway from a mirror to the first rough level it has
-// half of that level's variance, where the lobe would have a sixteenth. So this adds to the square of alpha of the
-// mixture, and returns where a mixture has the sum.
+// The roughness at which the mixture of two levels is as wide as the lobe of `perceptual_roughness`, by the mean square
+// of their alphas. It is lower, because mixtures are wider than what lies between: halfway from a mirror to the first
+// rough level half of that level's square is in the mixture, and a sixteenth in the lobe.
 template <class T>
-HWY_INLINE T WidenedLookup(T perceptual_roughness, T footprint_alpha2) {
-  const MaskOf<T> wider = footprint_alpha2 > T(0.0f);
-  if (!Any(wider)) return perceptual_roughness;
+HWY_INLINE T RoughnessOfMixture(T perceptual_roughness) {
   constexpr float kLast = static_cast<float>(EnvironmentMap::kLevels - 1);
-  const T one(1.0f), zero(0.0f), last(kLast), last_step(kLast - 1.0f);
   const auto fourth = [](T x) HWY_ATTR { return (x * x) * (x * x); };
-  const T from = Clamp(perceptual_roughness * last, zero, last), below = Min(Floor(from), last_step);
-  const T low = fourth(below), high = fourth(below + one);  // of the levels, times the fourth power of their number
-  const T sum =
-      Min(low + (from - below) * (high - low) + footprint_alpha2 * T(kLast * kLast * kLast * kLast), fourth(last));
-  const T level = Min(Floor(Sqrt(Sqrt(sum))), last_step);
-  const T first = fourth(level);
-  return Select(wider, (level + (sum - first) / (fourth(level + one) - first)) * T(1.0f / kLast), perceptual_roughness);
+  const T at = perceptual_roughness * T(kLast), level = Floor(at), first = fourth(level);
+  return (level + (fourth(at) - first) / (fourth(level + T(1.0f)) - first)) * T(1.0f / kLast);
 }
 
 // Irradiance on a surface facing `normal`, divided by pi.

@@ -154,9 +154,8 @@ TEST(Explain, LayersHaveTheirWordsAndCosts) {
   const Explanation e = Explain(scene, settings);
   ASSERT_EQ(e.materials.size(), 1u);
   EXPECT_EQ(e.materials[0].features, (std::vector<std::string>{"clearcoat", "anisotropy"}));
-  EXPECT_EQ(Costed(e),
-            (std::set<std::string>{"clearcoat", "anisotropy", "anisotropic-filtering", "environment-light",
-                                   "specular-antialiasing"}));
+  EXPECT_EQ(Costed(e), (std::set<std::string>{"clearcoat", "anisotropy", "anisotropic-filtering", "environment-light",
+                                              "specular-antialiasing"}));
   EXPECT_EQ(e.costs.size(), 5u) << "that of the surface and that of the filter have names of their own";
   EXPECT_EQ(CostOf(e, "anisotropy")->option, "--without anisotropy");
   EXPECT_EQ(CostOf(e, "anisotropic-filtering")->option, "--max-anisotropy 1");

@@ -144,26 +144,34 @@ TEST(Footprint, ZeroWidensNothing) {
   for (int i = 0; i <= 1000; ++i) {
     const float roughness = float(i) / 1000.0f;
     EXPECT_EQ(lanes::WidenedRoughness(roughness, 0.0f), roughness);
-    EXPECT_EQ(lanes::WidenedLookup(roughness, 0.0f), roughness);
+    EXPECT_FALSE(lanes::IsWidened(roughness, 0.0f));
   }
 }
 
-// Squares of alpha add up: those of the lobe, and those of the mixture of two levels of a prefiltered environment.
+// Squares of alpha add up. Lobes that are so wide that it would not show are left as they are.
 TEST(Footprint, SquaresOfAlphaAddUp) {
-  const auto mixture = [](double roughness) {
-    const double at = roughness * (EnvironmentMap::kLevels - 1), level = std::min(std::floor(at), 7.0);
-    return std::pow(level / 8, 4) * (level + 1 - at) + std::pow((level + 1) / 8, 4) * (at - level);
-  };
   for (double roughness = 0.0; roughness <= 1.0; roughness += 1.0 / 64) {
     for (const double alpha2 : {1e-8, 1e-5, 1e-3, 0.02, 0.18}) {
-      const double lobe = std::pow(lanes::WidenedRoughness(roughness, alpha2), 4);
-      EXPECT_NEAR(lobe, std::pow(roughness, 4) + alpha2, 1e-12);
-      const double looked_up = lanes::WidenedLookup(roughness, alpha2);
-      EXPECT_GE(looked_up, roughness);
-      EXPECT_LE(looked_up, 1.0);
-      EXPECT_NEAR(mixture(looked_up), std::min(mixture(roughness) + alpha2, 1.0), 1e-12);
+      const double own = std::pow(roughness, 4);
+      const bool wider = lanes::IsWidened(roughness, alpha2);
+      EXPECT_EQ(wider, alpha2 > own / 64);
+      EXPECT_NEAR(std::pow(lanes::WidenedRoughness(roughness, alpha2), 4), wider ? own + alpha2 : own, 1e-12);
     }
   }
+}
+
+// A mixture of two levels of the prefiltered environment has the mean of their squares.
+TEST(Footprint, MixturesAreAsWideAsTheLobe) {
+  constexpr int kLast = EnvironmentMap::kLevels - 1;
+  for (double roughness = 1.0 / 512; roughness < 1.0; roughness += 1.0 / 256) {
+    const double looked_up = lanes::RoughnessOfMixture(roughness);
+    EXPECT_LE(looked_up, roughness);
+    const double at = looked_up * kLast, level = std::floor(at);
+    const double mixture =
+        std::pow(level / kLast, 4) * (level + 1 - at) + std::pow((level + 1) / kLast, 4) * (at - level);
+    EXPECT_NEAR(mixture, std::pow(roughness, 4), 1e-12);
+  }
+  for (int k = 0; k <= kLast; ++k) EXPECT_EQ(lanes::RoughnessOfMixture(double(k) / kLast), double(k) / kLast);
 }
 
 }  // namespace
