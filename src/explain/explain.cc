@@ -133,6 +133,9 @@ std::vector<Ablation> Ablations(const RenderSettings& settings, const FramePlan&
   if (settings.max_anisotropy > 1 && !plan.textures.empty()) {
     add("anisotropic-filtering", "--max-anisotropy 1").max_anisotropy = 1;
   }
+  if (settings.specular_antialiasing && (plan.environment_light || plan.punctual_lights)) {
+    add("specular-antialiasing", "--specular-antialiasing off").specular_antialiasing = false;
+  }
   return ablations;
 }
 

@@ -48,6 +48,7 @@ class Planner {
     FrameMaterial& f = planned.frame;
     f.features = FeaturesOf(material, on_surface);
     f.vertex_colors = colors;
+    f.specular_antialiasing = settings_.specular_antialiasing;
     f.alpha_mode = material.alpha_mode;
     f.factors = FactorsOf(material);
     planned.parameters = material.parameters;
@@ -291,6 +292,7 @@ FramePlan MakeFramePlan(const Scene& scene, const PosedScene& posed, const Rende
   plan.planes = settings.planes;
   if (plan.planes.empty()) plan.disabled.emplace_back("planes besides colour: not asked for");
   if (settings.samples == 1) plan.disabled.emplace_back("multisampling: one sample a pixel");
+  if (!settings.specular_antialiasing) plan.disabled.emplace_back(std::string("specular antialiasing: ") + kOnRequest);
   if (!settings.omit_unused) UseEverything(settings, plan);
   plan.albedo_tables = {.sheen = any_has(kSheen), .anisotropic_dfg = any_has(kAnisotropy)};
   return plan;

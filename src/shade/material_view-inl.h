@@ -169,6 +169,7 @@ class MaterialView {
     const Vec4<T> base = BaseColor(s, textures);
     const Source source{m_, s, textures};
     MaterialInputs<T> in = ReadInputs<T, kPossible>(source, base, m_.features);
+    in.footprint_alpha2 = s.footprint_alpha2;
     if constexpr ((kPossible & kIor) != 0) {
       if (m_.model == ShadingModel::SpecularGlossiness) SetSpecularGlossiness(source, in);
     }

@@ -95,7 +95,7 @@ TEST(Explain, NamesAndCountsWhatTheFrameUses) {
 
   EXPECT_EQ(Costed(e), (std::set<std::string>{"base-color-texture", "metallic-roughness-texture", "normal-texture",
                                               "occlusion", "environment-light", "punctual-lights", "background",
-                                              "multisampling", "anisotropic-filtering"}));
+                                              "multisampling", "anisotropic-filtering", "specular-antialiasing"}));
   EXPECT_EQ(e.environment, "16x8");
   EXPECT_TRUE(e.environment_light && e.environment_background);
   EXPECT_EQ(e.lights.spot, 1);
@@ -154,9 +154,9 @@ TEST(Explain, LayersHaveTheirWordsAndCosts) {
   const Explanation e = Explain(scene, settings);
   ASSERT_EQ(e.materials.size(), 1u);
   EXPECT_EQ(e.materials[0].features, (std::vector<std::string>{"clearcoat", "anisotropy"}));
-  EXPECT_EQ(Costed(e),
-            (std::set<std::string>{"clearcoat", "anisotropy", "anisotropic-filtering", "environment-light"}));
-  EXPECT_EQ(e.costs.size(), 4u) << "that of the surface and that of the filter have names of their own";
+  EXPECT_EQ(Costed(e), (std::set<std::string>{"clearcoat", "anisotropy", "anisotropic-filtering", "environment-light",
+                                              "specular-antialiasing"}));
+  EXPECT_EQ(e.costs.size(), 5u) << "that of the surface and that of the filter have names of their own";
   EXPECT_EQ(CostOf(e, "anisotropy")->option, "--without anisotropy");
   EXPECT_EQ(CostOf(e, "anisotropic-filtering")->option, "--max-anisotropy 1");
   ASSERT_EQ(e.textures.size(), 1u);
