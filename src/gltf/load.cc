@@ -13,7 +13,7 @@
 #include "gltf/nodes.h"
 #include "gltf/pictures.h"
 #include "gltf/primitive.h"
-#include "material/slots.h"
+#include "material/model_parameters.h"
 #include "scene/topology.h"
 
 namespace facet {
@@ -97,9 +97,8 @@ void WarnOfMissingSets(const Scene& scene, const Primitive& primitive, int mater
   if (material < 0) return;
   const Material& reader = scene.materials[std::size_t(material)];
   const bool on_surface = ClassOf(primitive.topology) == PrimitiveClass::Triangles || !primitive.normals.empty();
-  ForEachSlot(FeaturesOf(reader, on_surface), [&](Slot slot) {
-    const SlotInfo& info = InfoOf(slot);
-    const auto set = std::size_t((reader.*info.ref).tex_coord);
+  ForEachSlotOf(reader.model, FeaturesOf(reader, on_surface), [&](const SlotInfo& info) {
+    const auto set = std::size_t(TextureIn(reader, info).tex_coord);
     if (set < primitive.tex_coords.size() && !primitive.tex_coords[set].empty()) return;
     Place(place, "attributes")
         .Warn("TEXCOORD_" + std::to_string(set) + " is missing, by which the " + info.name + " of materials[" +

@@ -78,12 +78,12 @@ struct MaterialInputs {
 //   bool HasEnvironment() const;
 //   Vec3<T> IrradianceOverPi(Vec3<T> normal) const;                   // cosine-weighted mean radiance
 //   Vec3<T> Prefiltered(Vec3<T> direction, T perceptual_roughness) const;
-//   Vec3<T> Prefiltered(Vec3<T> direction, T perceptual_roughness, T footprint_alpha2) const;  // the lobe widened by
-//   it SpecularAlbedo<T> Dfg(T n_dot_v, T perceptual_roughness) const; SpecularAlbedo<T> DfgAverage(T
-//   perceptual_roughness) const;       // the same, averaged: 2 * integral of mu d mu SpecularAlbedo<T>
-//   AnisotropicDfg(T n_dot_v, T t_dot_v, T perceptual_roughness, T strength) const; SpecularAlbedo<T>
-//   AnisotropicDfgAverage(T perceptual_roughness, T strength) const; T SheenAlbedo(T n_dot_v, T perceptual_roughness)
-//   const;           // may exceed 1
+//   Vec3<T> Prefiltered(Vec3<T> direction, T perceptual_roughness, T footprint_alpha2) const;  // of a widened lobe
+//   SpecularAlbedo<T> Dfg(T n_dot_v, T perceptual_roughness) const;
+//   SpecularAlbedo<T> DfgAverage(T perceptual_roughness) const;       // the same, averaged: 2 * integral of mu d mu
+//   SpecularAlbedo<T> AnisotropicDfg(T n_dot_v, T t_dot_v, T perceptual_roughness, T strength) const;
+//   SpecularAlbedo<T> AnisotropicDfgAverage(T perceptual_roughness, T strength) const;
+//   T SheenAlbedo(T n_dot_v, T perceptual_roughness) const;           // may exceed 1
 template <class T, MaterialFeatures kPossible = kAllLobes>
 struct Closure {
   SurfaceView<T> at;
