@@ -16,6 +16,7 @@ struct VerifySettings {
   // The environment image that lit the scene. None: the file that the picture names, in the scene's folder (or anywhere
   // within load.root, if that is given).
   std::optional<std::filesystem::path> environment;
+  std::optional<std::filesystem::path> materials;  // the material file, likewise
   int threads = 0;  // 0: one per core
   LoadOptions load;
 };

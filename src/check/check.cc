@@ -39,9 +39,13 @@ Error Placed(const Manifest& manifest, const ManifestEntry& entry, const Error& 
   if (where.starts_with("--")) {
     return at(SettingPointer(entry, where.substr(2, where.find(' ') - 2)), error.message());
   }
-  const std::optional<std::filesystem::path>& sky = entry.request.environment;
-  const bool of_sky = sky && where.starts_with((manifest.path.parent_path() / *sky).string());
-  return at(of_sky ? SettingPointer(entry, "environment") : entry.pointer + "/scene", where + ": " + error.message());
+  const auto is_of = [&](const std::optional<std::filesystem::path>& file) {
+    return file && where.starts_with((manifest.path.parent_path() / *file).string());
+  };
+  const std::string pointer = is_of(entry.request.environment) ? SettingPointer(entry, "environment")
+                              : is_of(entry.request.materials) ? SettingPointer(entry, "materials")
+                                                               : entry.pointer + "/scene";
+  return at(pointer, where + ": " + error.message());
 }
 
 // A golden image: the bytes of its file, and the decoded image.

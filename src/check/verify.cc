@@ -58,11 +58,19 @@ Verification Verify(const std::filesystem::path& picture, const std::filesystem:
   const Provenance provenance = ReadProvenance(file.Span(), name);
   RenderRequest request = ReadRequest(provenance, name);
   NamedBy named_by{scene, settings.load.root};
-  if (settings.environment) {
-    if (!request.environment) {
-      throw Error(ErrorCode::InvalidUsage, "no environment's picture lit it", name, "leave the environment out");
-    }
-    request.environment = settings.environment;
+  if (settings.environment && !request.environment) {
+    throw Error(ErrorCode::InvalidUsage, "no environment's picture lit it", name, "leave the environment out");
+  }
+  if (settings.materials && !request.materials) {
+    throw Error(ErrorCode::InvalidUsage, "no material file changed it", name, "leave the material file out");
+  }
+  if (settings.environment || settings.materials) {
+    // What the user does not name is still the picture's to name.
+    const auto resolve = [&](const auto& given, std::optional<std::filesystem::path>& file) {
+      if (file) file = given ? *given : DataPath(scene, *file, named_by.root);
+    };
+    resolve(settings.environment, request.environment);
+    resolve(settings.materials, request.materials);
     named_by = {};
   }
   const Image before = DecodeStored(file.Span(), name);

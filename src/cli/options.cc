@@ -249,6 +249,8 @@ CLI::App& AddVerify(CLI::App& program, VerifyOptions& options) {
   Add(app, "Options", "--environment", "FILE",
       "The picture that lit the scene\n[the file of that name in the scene's folder]",
       [&](const std::string& text) { options.environment = text; });
+  Add(app, "Options", "--materials", "FILE", "Its material file\n[the file of that name in the scene's folder]",
+      [&](const std::string& text) { options.materials = text; });
   AddLoading(app, "Options", options.load, options.strict);
   AddMemoryLimit(app, "Options", options.load.memory_limit);
   AddThreads(app, "Options", options.threads);

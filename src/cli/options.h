@@ -63,7 +63,7 @@ struct HashOptions {
 // `facet verify`.
 struct VerifyOptions {
   std::filesystem::path picture, input;
-  std::optional<std::filesystem::path> environment;  // replaces the file next to the scene
+  std::optional<std::filesystem::path> environment, materials;  // replace the files next to the scene
   LoadOptions load;
   bool strict = false;
   int threads = 0;

@@ -51,7 +51,7 @@ std::string Json(const Verification& v) {
 }  // namespace
 
 int RunVerify(const VerifyOptions& options) {
-  const VerifySettings settings{options.environment, options.threads, options.load};
+  const VerifySettings settings{options.environment, options.materials, options.threads, options.load};
   const Verification verification = VerifyPicture(options.picture, options.input, settings);
   PrintWarnings(verification.warnings, options.strict, options.input.string());
   PrintOutput(options.json ? Json(verification) : Text(verification));

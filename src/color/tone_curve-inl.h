@@ -67,11 +67,45 @@ HWY_INLINE Vec3<T> AcesCurve(Vec3<T> light) {
   return Clamp(Transform(kOutput, Vec3<T>{fit(v.x), fit(v.y), fit(v.z)}), T(0.0f), T(1.0f));
 }
 
-// AgX, base look. T. Sobotka, 2022, "AgX"; the sixth-degree fit of its contrast curve is B. Wrensch's, 2023, "Minimal
+// K. Narkowicz's fit of the ACES curve, per channel (2016, "ACES Filmic Tone Mapping Curve"). Filament's "filmic".
+template <class T>
+HWY_INLINE Vec3<T> FilmicCurve(Vec3<T> light) {
+  const Vec3<T> c = BoundLight(light);
+  const auto fit = [](T x) HWY_ATTR {
+    return (x * (T(2.51f) * x + T(0.03f))) / (x * (T(2.43f) * x + T(0.59f)) + T(0.14f));
+  };
+  return Clamp(Vec3<T>{fit(c.x), fit(c.y), fit(c.z)}, T(0.0f), T(1.0f));
+}
+
+// Filament's "generic" curve with its defaults: s x^c / (x^c + r), with the contrast c = 1.55, and s and r such that
+// light of 0.18 becomes 0.215, and light of 10 white.
+template <class T>
+HWY_INLINE Vec3<T> GenericCurve(Vec3<T> light) {
+  constexpr float kContrast = 1.55f, kMiddle = 0.215f;
+  constexpr double kIn = 0.0700935009, kWhite = 35.4813389;  // 0.18^1.55 and 10^1.55
+  constexpr double kBelow = kIn - double{kMiddle} * kWhite;
+  constexpr auto kInput = static_cast<float>(kIn * kWhite * (double{kMiddle} - 1.0) / kBelow);
+  constexpr auto kOutput = static_cast<float>(double{kMiddle} * (kIn - kWhite) / kBelow);
+  const Vec3<T> c = BoundLight(light);
+  const auto fit = [](T x) HWY_ATTR {
+    const T power = Pow(Min(x, T(10.0f)), T(kContrast));
+    return T(kOutput) * power / (power + T(kInput));
+  };
+  return Clamp(Vec3<T>{fit(c.x), fit(c.y), fit(c.z)}, T(0.0f), T(1.0f));
+}
+
+// AgX's looks change the curve's result before it is made linear: a slope, a power and a saturation.
+struct AgXLook {
+  float slope[3] = {1, 1, 1};
+  float power = 1.0f, saturation = 1.0f;
+};
+inline constexpr AgXLook kAgXBase{}, kAgXGolden{{1.0f, 0.9f, 0.5f}, 0.8f, 1.3f}, kAgXPunchy{{1, 1, 1}, 1.35f, 1.4f};
+
+// AgX. T. Sobotka, 2022, "AgX"; the sixth-degree fit of its contrast curve is B. Wrensch's, 2023, "Minimal
 // AgX Implementation"; working space and matrices as in Filament and three.js: Rec. 2020, inset, log2 of [-12.47393,
 // 4.026069] stops, curve, outset, and 2.2 to the linear light that sRGB encodes afterwards.
 template <class T>
-HWY_INLINE Vec3<T> AgXCurve(Vec3<T> light) {
+HWY_INLINE Vec3<T> AgXCurve(Vec3<T> light, const AgXLook& look) {
   constexpr float kRec2020FromRec709[9] = {0.6274f, 0.3293f, 0.0433f, 0.0691f, 0.9195f,
                                            0.0113f, 0.0164f, 0.0880f, 0.8956f};
   constexpr float kRec709FromRec2020[9] = {1.6605f,  -0.5876f, -0.0728f, -0.1246f, 1.1329f,
@@ -92,10 +126,25 @@ HWY_INLINE Vec3<T> AgXCurve(Vec3<T> light) {
     for (int i = 5; i >= 0; --i) sum = sum * t + T(kContrast[i]);
     return sum;
   };
-  const Vec3<T> seen = Transform(kOutset, Vec3<T>{curve(v.x), curve(v.y), curve(v.z)});
+  Vec3<T> curved{curve(v.x), curve(v.y), curve(v.z)};
+  if (look.power != 1.0f || look.saturation != 1.0f) {
+    const auto graded = [&](T x, float slope) HWY_ATTR {
+      return Pow(Max(x * T(slope), T(0.0f)), T(look.power));
+    };
+    curved = {graded(curved.x, look.slope[0]), graded(curved.y, look.slope[1]), graded(curved.z, look.slope[2])};
+    const T luminance = T(0.2126f) * curved.x + T(0.7152f) * curved.y + T(0.0722f) * curved.z;
+    const Vec3<T> grey{luminance, luminance, luminance};
+    curved = grey + (curved - grey) * T(look.saturation);
+  }
+  const Vec3<T> seen = Transform(kOutset, curved);
   const auto linear = [](T x) HWY_ATTR { return Pow(Max(x, T(0.0f)), T(2.2f)); };
   const Vec3<T> rec2020{linear(seen.x), linear(seen.y), linear(seen.z)};
   return Clamp(Transform(kRec709FromRec2020, rec2020), T(0.0f), T(1.0f));
+}
+
+template <class T>
+HWY_INLINE Vec3<T> AgXCurve(Vec3<T> light) {
+  return AgXCurve(light, kAgXBase);
 }
 
 // Khronos PBR Neutral. Khronos Group (E. Chalmers), 2024, "Khronos PBR Neutral Tone Mapper" specification: base colours

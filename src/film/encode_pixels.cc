@@ -10,6 +10,8 @@
 #define HWY_TARGET_INCLUDE "film/encode_pixels.cc"
 #include "hwy/foreach_target.h"
 
+#include "color/grading-inl.h"
+#include "color/gt7_curve-inl.h"
 #include "color/tone_curve-inl.h"
 #include "color/transfer-inl.h"
 #include "facet/shader/dispatch.h"
@@ -26,6 +28,11 @@ HWY_INLINE Vec3<Float> ApplyToneMap(ToneMap tone_map, Vec3<Float> light) {
     case ToneMap::Aces: return AcesCurve(light);
     case ToneMap::AgX: return AgXCurve(light);
     case ToneMap::Neutral: return NeutralCurve(light);
+    case ToneMap::Filmic: return FilmicCurve(light);
+    case ToneMap::Generic: return GenericCurve(light);
+    case ToneMap::Gt7: return Gt7Curve(light);
+    case ToneMap::AgXGolden: return AgXCurve(light, kAgXGolden);
+    case ToneMap::AgXPunchy: return AgXCurve(light, kAgXPunchy);
     case ToneMap::None: break;
   }
   return ClampCurve(light);
@@ -74,8 +81,17 @@ struct Codes {
 
 HWY_INLINE Codes EncodeCodes(const EncodeTask& task, const Packet& packet) {
   const Vec4<Float> light = ExposedLight(task, packet.pixels);
-  Vec3<Float> shown = ApplyToneMap(task.tone_map, Xyz(light));
+  Vec3<Float> graded = Xyz(light);
+  if (task.grades) graded = Grade(task.grading, graded);
+  Vec3<Float> shown = ApplyToneMap(task.tone_map, graded);
   if (task.opaque) shown = InFront(task, packet, shown, light.w);
+  if (task.transfer == Transfer::Gamma) {
+    // The light whose sRGB code is that of the power.
+    const auto as_srgb = [](Float c) HWY_ATTR {
+      return SrgbToLinear(Pow(Clamp(c, Float(0.0f), Float(1.0f)), Float(1.0f / 2.2f)));
+    };
+    shown = {as_srgb(shown.x), as_srgb(shown.y), as_srgb(shown.z)};
+  }
   const Float largest(task.type == ChannelType::U8 ? 255.0f : 65535.0f);
   // Wholly transparent pixels have no colour.
   const Mask colored = task.opaque ? light.w == light.w : light.w > Float(0.0f);

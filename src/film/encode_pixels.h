@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 
+#include "color/grading.h"
 #include "color/srgb.h"
 #include "facet/film.h"
 
@@ -17,6 +18,9 @@ struct EncodeTask {
   std::byte* out = nullptr;  // 4 components of `type` each, or 3 if `opaque`
   ChannelType type = ChannelType::U8;
   ToneMap tone_map = ToneMap::None;
+  bool grades = false;  // `grading` changes something
+  GradingFactors grading;
+  Transfer transfer = Transfer::Srgb;
   float exposure = 1.0f;  // a factor, finite, positive
   bool opaque = false;
   std::array<float, 3> background_linear{};  // for `opaque`

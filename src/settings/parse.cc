@@ -162,6 +162,33 @@ glm::dvec3 ParseVec3(std::string_view option, std::string_view text) {
   return vector;
 }
 
+std::vector<double> ParseNumbers(std::string_view option, std::string_view text, std::size_t count, Range range) {
+  const std::vector<std::string_view> parts = Split(text, ',');
+  if (parts.size() != count) {
+    Refuse(option, text, "a list of " + std::to_string(count) + " numbers", "separate them by commas, without spaces");
+  }
+  std::vector<double> numbers;
+  for (const std::string_view part : parts) numbers.push_back(ParseNumber(option, part, range));
+  return numbers;
+}
+
+std::array<double, 3> ParseCameraExposure(std::string_view option, std::string_view text) {
+  const std::vector<std::string_view> parts = Split(text, ',');
+  if (parts.size() != 3) {
+    Refuse(option, text, "an exposure", "give APERTURE,SECONDS,ISO without spaces, such as 16,1/125,100");
+  }
+  double seconds = 0.0;
+  if (const std::vector<std::string_view> fraction = Split(parts[1], '/'); fraction.size() == 2) {
+    seconds = ParseNumber(option, fraction[0], {1e-6, 1e6}) / ParseNumber(option, fraction[1], {1e-6, 1e6});
+    if (!(seconds >= 1e-6 && seconds <= 1e6)) {
+      Refuse(option, parts[1], "a shutter time", "give 1e-6 to 1e6 seconds");
+    }
+  } else {
+    seconds = ParseNumber(option, parts[1], {1e-6, 1e6});
+  }
+  return {ParseNumber(option, parts[0], {0.1, 1000.0}), seconds, ParseNumber(option, parts[2], {1.0, 1e7})};
+}
+
 Orbit ParseOrbit(std::string_view option, std::string_view text) {
   const std::vector<std::string_view> parts = Split(text, ',');
   std::array<double, 3> numbers = {0.0, 0.0, 0.0};

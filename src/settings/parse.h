@@ -3,6 +3,7 @@
 // accepted.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
@@ -42,6 +43,13 @@ Size ParseSize(std::string_view option, std::string_view text);
 
 // X,Y,Z: three finite numbers.
 glm::dvec3 ParseVec3(std::string_view option, std::string_view text);
+
+// `count` numbers in `range`, separated by commas.
+std::vector<double> ParseNumbers(std::string_view option, std::string_view text, std::size_t count, Range range);
+
+// APERTURE,SECONDS,ISO: an f-number, 0.1 to 1000; a shutter time, 1e-6 to 1e6, which may be a fraction such as 1/125; a
+// sensitivity, 1 to 1e7.
+std::array<double, 3> ParseCameraExposure(std::string_view option, std::string_view text);
 
 // THETA,PHI[,RADIUS]: angles in degrees and a radius in metres. A radius of 0 (or none) frames the scene.
 struct Orbit {

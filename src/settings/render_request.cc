@@ -79,10 +79,43 @@ constexpr std::array kOptions = {
                   [](RenderRequest& r, Text where, Text text) {
                     r.display.exposure_ev = ParseNumber(where, text, {-64.0, 64.0});
                   }},
-    RequestOption{"tonemap", kOutput, "CURVE", "neutral", "none, reinhard, aces, agx or neutral [neutral]",
+    RequestOption{"camera-exposure", kOutput, "N,SECONDS,ISO", "",
+                  "Of a camera's f-number, shutter and sensitivity,\nsuch as 16,1/125,100 [none]",
                   [](RenderRequest& r, Text where, Text text) {
-                    r.display.tone_map =
-                        static_cast<ToneMap>(ParseChoice(where, text, {"none", "reinhard", "aces", "agx", "neutral"}));
+                    const auto [aperture, seconds, iso] = ParseCameraExposure(where, text);
+                    r.display.camera = CameraExposure{aperture, seconds, iso};
+                  }},
+    RequestOption{"tonemap", kOutput, "CURVE", "neutral",
+                  "none, reinhard, aces, agx, neutral, filmic,\ngeneric, gt7, agx-golden or agx-punchy [neutral]",
+                  [](RenderRequest& r, Text where, Text text) {
+                    r.display.tone_map = static_cast<ToneMap>(
+                        ParseChoice(where, text, {kToneMapWords.begin(), kToneMapWords.end()}));
+                  }},
+    RequestOption{"transfer", kOutput, "CURVE", "srgb", "srgb, or gamma: a power of 1 / 2.2 [srgb]",
+                  [](RenderRequest& r, Text where, Text text) {
+                    r.display.transfer = static_cast<Transfer>(ParseChoice(where, text, {"srgb", "gamma"}));
+                  }},
+    RequestOption{"white-balance", kOutput, "TEMPERATURE,TINT", "",
+                  "Of the light that is to be white, -1 to 1 each:\nblue to yellow, green to magenta [0,0]",
+                  [](RenderRequest& r, Text where, Text text) {
+                    const std::vector<double> numbers = ParseNumbers(where, text, 2, {-1.0, 1.0});
+                    r.display.grading.temperature = numbers[0], r.display.grading.tint = numbers[1];
+                  }},
+    RequestOption{"contrast", kOutput, "F", "1", "Around middle grey, 0 to 2 [1]",
+                  [](RenderRequest& r, Text where, Text text) {
+                    r.display.grading.contrast = ParseNumber(where, text, {0.0, 2.0});
+                  }},
+    RequestOption{"saturation", kOutput, "F", "1", "0 (grey) to 2 [1]",
+                  [](RenderRequest& r, Text where, Text text) {
+                    r.display.grading.saturation = ParseNumber(where, text, {0.0, 2.0});
+                  }},
+    RequestOption{"curves", kOutput, "GAMMA,MIDDLE,SCALE", "",
+                  "A power below a middle, a slope above it, 0.01 to\n100 each [1,1,1]",
+                  [](RenderRequest& r, Text where, Text text) {
+                    const std::vector<double> numbers = ParseNumbers(where, text, 3, {0.01, 100.0});
+                    r.display.grading.gamma = glm::dvec3(numbers[0]);
+                    r.display.grading.middle = glm::dvec3(numbers[1]);
+                    r.display.grading.scale = glm::dvec3(numbers[2]);
                   }},
     RequestOption{"background", kOutput, "WHAT", "transparent",
                   "#rgb, #rrggbb, a colour's name, transparent,\nor environment [transparent]",

@@ -1,5 +1,7 @@
 #include "color/tone_curve-inl.h"
 
+#include "color/gt7_curve-inl.h"
+
 #include <gtest/gtest.h>
 
 #include <array>
@@ -24,6 +26,9 @@ const Curve kCurves[] = {
     {"ACES", lane::AcesCurve<float>, lane::AcesCurve<double>},
     {"AgX", lane::AgXCurve<float>, lane::AgXCurve<double>},
     {"Neutral", lane::NeutralCurve<float>, lane::NeutralCurve<double>},
+    {"filmic", lane::FilmicCurve<float>, lane::FilmicCurve<double>},
+    {"generic", lane::GenericCurve<float>, lane::GenericCurve<double>},
+    {"GT7", lane::Gt7Curve<float>, lane::Gt7Curve<double>},
 };
 
 void ExpectNear(const lane::Vec3<double>& result, const Color& expected, double tolerance) {
@@ -145,6 +150,36 @@ TEST(ToneCurve, NeutralCompressesHighlights) {
   Color expected;
   for (std::size_t i = 0; i < 3; ++i) expected[i] = (light[i] - 0.04) * new_peak / peak * (1.0 - g) + new_peak * g;
   ExpectNear(lane::NeutralCurve<double>({light[0], light[1], light[2]}), expected, 1e-7);
+}
+
+TEST(ToneCurve, FilmicGenericAndGt7HaveTheirPublishedValues) {
+  const auto grey = [](double light) { return lane::Vec3<double>{light, light, light}; };
+  ExpectNear(lane::FilmicCurve(grey(1.0)), {2.54 / 3.16, 2.54 / 3.16, 2.54 / 3.16}, 1e-7);
+  ExpectNear(lane::GenericCurve(grey(0.18)), {0.215, 0.215, 0.215}, 1e-6);
+  ExpectNear(lane::GenericCurve(grey(10.0)), {1.0, 1.0, 1.0}, 1e-6);
+  // Of grey light: the straight part at and above the middle, and the shoulder at the display's white.
+  for (const double light : {0.538, 0.8, 1.1}) {
+    ExpectNear(lane::Gt7Curve(grey(light)), {light / 2.5, light / 2.5, light / 2.5}, 2e-4);
+  }
+  const double k = 0.556 / 0.75, white = 0.444 + k - k * std::exp((1.11 - 2.5) / (2.5 * k));
+  ExpectNear(lane::Gt7Curve(grey(2.5)), {white, white, white}, 2e-4);
+}
+
+TEST(ToneCurve, AgXLooksSaturateAndDarken) {
+  const lane::Vec3<double> light{0.5, 0.2, 0.1};
+  const lane::Vec3<double> base = lane::AgXCurve(light), punchy = lane::AgXCurve(light, lane::kAgXPunchy);
+  EXPECT_GT(punchy.x / punchy.z, base.x / base.z);
+  EXPECT_LT(punchy.y, base.y);
+  const lane::Vec3<double> golden = lane::AgXCurve(lane::Vec3<double>{0.4, 0.4, 0.4}, lane::kAgXGolden);
+  EXPECT_GT(golden.x, golden.z);
+}
+
+TEST(Pq, HoldsTenThousandNitsAndIsInverted) {
+  EXPECT_NEAR(lane::PqFromLight(100.0), 1.0, 1e-6);
+  EXPECT_NEAR(lane::PqFromLight(1.0), 0.5080784, 1e-6) << "100 cd/m2, by ST 2084";
+  for (const double light : {0.001, 0.1, 1.0, 40.0}) {
+    EXPECT_NEAR(lane::LightFromPq(lane::PqFromLight(light)) / light, 1.0, 1e-5);
+  }
 }
 
 }  // namespace

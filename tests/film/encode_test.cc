@@ -118,7 +118,8 @@ TEST(EncodeFilm, AlphaIsStraight) {
 }
 
 TEST(EncodeFilm, BackgroundIsExactForEveryToneMapAndExposure) {
-  for (const ToneMap tone_map : {ToneMap::None, ToneMap::Reinhard, ToneMap::Aces, ToneMap::AgX, ToneMap::Neutral}) {
+  for (const ToneMap tone_map : {ToneMap::None, ToneMap::Reinhard, ToneMap::Aces, ToneMap::AgX, ToneMap::Neutral, ToneMap::Filmic,
+                                 ToneMap::Generic, ToneMap::Gt7, ToneMap::AgXGolden, ToneMap::AgXPunchy}) {
     for (const double exposure : {-3.0, 0.0, 5.0}) {
       for (int code = 0; code < 256; ++code) {
         const float c = static_cast<float>(code) / 255.0f;
@@ -176,7 +177,8 @@ TEST(EncodeFilm, WhatIsNotFiniteIsEmpty) {
 
 TEST(EncodeFilm, SameBytesOnEveryTargetAndThreadCount) {
   const Film film = WildFilm(131, 127);  // two tasks, the last with a rest of a vector
-  for (const ToneMap tone_map : {ToneMap::None, ToneMap::Reinhard, ToneMap::Aces, ToneMap::AgX, ToneMap::Neutral}) {
+  for (const ToneMap tone_map : {ToneMap::None, ToneMap::Reinhard, ToneMap::Aces, ToneMap::AgX, ToneMap::Neutral, ToneMap::Filmic,
+                                 ToneMap::Generic, ToneMap::Gt7, ToneMap::AgXGolden, ToneMap::AgXPunchy}) {
     for (const ChannelType type : {ChannelType::U8, ChannelType::U16, ChannelType::F32}) {
       for (const bool opaque : {false, true}) {
         auto settings = Display(tone_map, 0.37);
@@ -204,6 +206,37 @@ TEST(EncodeFilm, RefusesSettingsThatMeanNothing) {
   EXPECT_THROW(EncodeFilm(Film{2, 2, {}}, Display(ToneMap::None)), Error);
   const Image empty = EncodeFilm(Film{}, Display(ToneMap::None));
   EXPECT_EQ(empty.bytes.size(), 0u);
+}
+
+TEST(EncodeFilm, ACamerasExposureMakesSunnySixteenMiddleGrey) {
+  DisplaySettings display = Display(ToneMap::None);
+  display.camera = CameraExposure{16.0, 1 / 128.0, 100.0};  // EV100 = 15: 1.2 * 2^15 cd/m2 are white
+  const float white = 1.2f * 32768.0f;
+  EXPECT_EQ(Bytes(OnePixel({white, white / 4, 0.0f, 1.0f}), display), (std::vector<int>{255, 137, 0, 255}));
+  display.exposure_ev = 1.0;
+  EXPECT_EQ(Bytes(OnePixel({white / 2, white / 8, 0.0f, 1.0f}), display), (std::vector<int>{255, 137, 0, 255}));
+  display.camera->aperture = 0.0;
+  EXPECT_THROW(EncodeFilm(OnePixel({}), display), Error);
+}
+
+TEST(EncodeFilm, GammaIsAPowerAndKeepsTheBackground) {
+  DisplaySettings display = Display(ToneMap::None, 0.0, glm::vec3(0.25f, 0.5f, 0.75f));
+  display.transfer = Transfer::Gamma;
+  const auto code = [](double light) { return static_cast<int>(std::lround(255.0 * std::pow(light, 1 / 2.2))); };
+  EXPECT_EQ(Bytes(OnePixel({0.5f, 0.18f, 0.01f, 1.0f}), display), (std::vector<int>{code(0.5), code(0.18), code(0.01)}));
+  EXPECT_EQ(Bytes(OnePixel({0.0f, 0.0f, 0.0f, 0.0f}), display), (std::vector<int>{64, 128, 191}));
+}
+
+TEST(EncodeFilm, GradingIsBeforeTheToneCurve) {
+  DisplaySettings display = Display(ToneMap::Reinhard);
+  display.grading.saturation = 0.0;
+  const std::vector<int> grey = Bytes(OnePixel({0.9f, 0.1f, 0.4f, 1.0f}), display);
+  EXPECT_EQ(grey[0], grey[1]);
+  EXPECT_EQ(grey[1], grey[2]);
+  const float luminance = 0.2126f * 0.9f + 0.7152f * 0.1f + 0.0722f * 0.4f;
+  EXPECT_EQ(grey, Bytes(OnePixel({luminance, luminance, luminance, 1.0f}), Display(ToneMap::Reinhard)));
+  display.grading.contrast = 3.0;
+  EXPECT_THROW(EncodeFilm(OnePixel({}), display), Error);
 }
 
 }  // namespace
