@@ -78,6 +78,9 @@ class WhiteLighting {
   lanes::SpecularAlbedo<double> Dfg(double n_dot_v, double roughness) const {
     return lanes::LookupDfg(SharedDfgTable(), n_dot_v, roughness);
   }
+  lanes::SpecularAlbedo<double> SchlickDfg(LectureAlpha alpha, double n_dot_v, double roughness) const {
+    return lanes::LookupDfg(SharedSchlickDfgTable(alpha), n_dot_v, roughness);
+  }
   lanes::Vec3<double> Prefiltered(const lanes::Vec3<double>&, double) const { return {1.0, 1.0, 1.0}; }
   lanes::Vec3<double> IrradianceOverPi(const lanes::Vec3<double>&) const { return {1.0, 1.0, 1.0}; }
 };

@@ -46,7 +46,8 @@ TEST(LectureDistribution, IntegratesToOne) {
     const auto lobe = [&](double c, double s2) { return lanes::DistributionBlinnPhong(c, s2, exponent); };
     EXPECT_NEAR(Norm(lobe, std::sqrt(2.0 / (exponent + 2.0))), 1.0, 1e-6) << exponent;
   }
-  for (double alpha1 : {0.0, 1e-6, 1e-3, 0.1, 1.0, 10.0, 100.0, 1e4, 1e6}) {
+  for (float stated : {0.0f, 1e-6f, 1e-3f, 0.1f, 1.0f, 10.0f, 100.0f, 1e4f, 1e6f}) {
+    const double alpha1 = double{BoundedAlpha1(stated)};
     for (double alpha2 : {0.0, 0.5, 1.0, 1.0 + 1e-9, 1.5, 2.0, 2.0 - 1e-7, 2.5, 10.0, 100.0}) {
       const double peak = 1.0 / (2.0 * kPi * AbcIntegral(alpha1, alpha2));
       const auto abc = [&](double c, double s2) { return lanes::DistributionAbc(c, s2, alpha1, alpha2, peak); };
@@ -86,7 +87,7 @@ TEST(LectureDistribution, AbcNorm) {
     EXPECT_NEAR(AbcIntegral(b, 1.0), one, 1e-8 * one);
     EXPECT_NEAR(AbcIntegral(b, 2.0), two, 1e-8 * two);
   }
-  EXPECT_NEAR(AbcIntegral(0.0, 3.0), 0.5, 1e-5);
+  EXPECT_NEAR(AbcIntegral(double{BoundedAlpha1(0.0f)}, 3.0), 0.5, 1e-5);
 }
 
 TEST(LectureGeometry, ClosedForms) {
@@ -286,7 +287,7 @@ TEST(Lecture, ExtremesAreFiniteAndFloatAgreesWithDouble) {
                   ASSERT_TRUE(std::isfinite(in_float) && std::isfinite(in_double));
                   ASSERT_GE(in_float, 0.0f);
                   ASSERT_GE(in_double, 0.0);
-                  if (nl <= 0.0f) ASSERT_EQ(in_float, 0.0f);
+                  ASSERT_TRUE(nl > 0.0f || in_float == 0.0f);
                   const double off = std::fabs(double{in_float} - in_double) / (in_double + 1e-3);
                   if (of_double.microfacets.alpha > 0.04) worst = std::max(worst, off);
                 }
@@ -355,17 +356,18 @@ TEST(Lecture, ImageAmbient) {
   const double nv = 0.4, f0 = 0.5 * double{p.f0} + 0.5 * double{p.albedo.value.x};
   const double f = f0 + (std::max(1.0 - 0.25, f0) - f0) * std::pow(1.0 - nv, 5);
   const WhiteLighting lighting;
-  const lanes::SpecularAlbedo<double> dfg = lighting.Dfg(nv, 0.25);
+  const lanes::SpecularAlbedo<double> dfg = lighting.SchlickDfg(p.alpha, nv, 0.25);
   const double expected = 0.5 * (f * dfg.a + dfg.b + (1.0 - f) * 0.5 * double{p.albedo.value.x});
   EXPECT_NEAR(LectureImageAlbedo(p, nv), expected, 1e-9);
 }
 
 // --- Presets ----------------------------------------------------------------------------------------------------------
 
-// A printed linear value stands for all that round to it: half a unit of its last digit to either side. The 8-bit code
-// must be that of one of them. (Four digits of the book's print are three or fewer: 0.02 is 0.015 to 0.025.)
+// A printed linear value stands for all that round to it: half a unit of its last digit to either side (0.02 for 0.015
+// to 0.025). The printed 8-bit code must be that of one of them. It is that of the printed value itself in all but two:
+// silicon's blue, 0.426, has the code 175, the book 174; mercury's green, 0.780, has 229, the book 228.
 TEST(LecturePresets, LinearValuesAndCodesAgree) {
-  int exact = 0, count = 0;
+  std::vector<std::string> others;
   for (const LecturePresetRow& row : kLecturePresets) {
     if (row.preset == LecturePreset::None) continue;
     for (std::size_t c = 0; c < 3; ++c) {
@@ -376,15 +378,10 @@ TEST(LecturePresets, LinearValuesAndCodesAgree) {
       const int low = LinearToSrgb8(std::max(linear - half, 0.0f)), high = LinearToSrgb8(linear + half);
       EXPECT_GE(int{row.srgb8[c]}, low) << row.word;
       EXPECT_LE(int{row.srgb8[c]}, high) << row.word;
-      exact += LinearToSrgb8(linear) == row.srgb8[c];
-      ++count;
-      if (LinearToSrgb8(linear) != row.srgb8[c]) {
-        std::printf("%s[%zu]: %.3f has code %d, printed %d\n", row.word, c, double{linear}, LinearToSrgb8(linear),
-                    row.srgb8[c]);
-      }
+      if (LinearToSrgb8(linear) != row.srgb8[c]) others.push_back(row.word + std::string(1, "rgb"[c]));
     }
   }
-  std::printf("%d of %d codes are those of the printed value itself\n", exact, count);
+  EXPECT_EQ(others, (std::vector<std::string>{"siliconb", "mercuryg"}));
 }
 
 }  // namespace

@@ -5,8 +5,8 @@
 //
 // Image-based light is the split sum as such lectures compute it: with F of n.v and the roughness,
 //   (kD albedo irradiance / pi + prefiltered (F A + B)) ao,   kS = F,
-// where the prefiltered radiance and A, B are those of GGX, whatever the distribution is, at the alpha whose GGX has the
-// same peak. What it approximates, and the reference integrates, is the reflectance above with the k of image-based light.
+// where the prefiltered radiance and A, B are those of GGX (A, B with the geometry term that is chosen), whatever the
+// distribution is, at the alpha whose GGX has the same peak. What it approximates, and the reference integrates, is the reflectance above with the k of image-based light.
 
 #if defined(FACET_MATERIAL_MODELS_LECTURE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef FACET_MATERIAL_MODELS_LECTURE_INL_H_
@@ -46,7 +46,7 @@ struct LectureMicrofacets {
                                                        : T(2.0f) / (alpha * alpha) - T(2.0f);
       if (p.exponent == LectureExponent::AlphaP) alpha = bounded(Sqrt(T(2.0f) / (exponent + T(2.0f))));
     } else if (p.specular == LectureSpecular::CookTorrance && p.distribution == LectureDistribution::Abc) {
-      const double integral = AbcIntegral(double{p.alpha1}, double{p.alpha2});
+      const double integral = AbcIntegral(double{BoundedAlpha1(p.alpha1)}, double{p.alpha2});
       constexpr double kTwoPi = 6.28318530717958648;
       abc_peak_ = FromHost(1.0 / (kTwoPi * integral));
       alpha = bounded(Sqrt(FromHost(2.0 * integral)));
@@ -61,7 +61,7 @@ struct LectureMicrofacets {
       case LectureDistribution::Ggx: return DistributionGgx(n_dot_h, sin2, alpha);
       case LectureDistribution::Beckmann: return DistributionBeckmann(n_dot_h, sin2, alpha);
       case LectureDistribution::BlinnPhong: return DistributionBlinnPhong(n_dot_h, sin2, exponent);
-      case LectureDistribution::Abc: return DistributionAbc(n_dot_h, sin2, T(p.alpha1), T(p.alpha2), abc_peak_);
+      case LectureDistribution::Abc: return DistributionAbc(n_dot_h, sin2, T(BoundedAlpha1(p.alpha1)), T(p.alpha2), abc_peak_);
     }
     return T(0.0f);
   }
@@ -133,9 +133,10 @@ struct LectureScattering {
 
   // kD times the diffuse colour.
   HWY_INLINE Vec3<T> Diffuse(const Vec3<T>& k_s) const {
-    const T dielectric = T(1.0f) - metalness;
-    return {diffuse_color.x * ((T(1.0f) - k_s.x) * dielectric), diffuse_color.y * ((T(1.0f) - k_s.y) * dielectric),
-            diffuse_color.z * ((T(1.0f) - k_s.z) * dielectric)};
+    const T zero(0.0f), one(1.0f), dielectric = one - metalness;  // F may exceed 1 by its rounding
+    return {diffuse_color.x * (Max(one - k_s.x, zero) * dielectric),
+            diffuse_color.y * (Max(one - k_s.y, zero) * dielectric),
+            diffuse_color.z * (Max(one - k_s.z, zero) * dielectric)};
   }
 
   HWY_INLINE Vec3<T> Reflected(const Vec3<T>& direction, bool of_image) const {
@@ -164,7 +165,9 @@ struct LectureScattering {
       k_s = {with_roughness(f0.x), with_roughness(f0.y), with_roughness(f0.z)};
       const Vec3<T> mirror = normal * (T(2.0f) * Dot(normal, view)) - view;
       const T roughness = microfacets.PerceptualRoughness();
-      const SpecularAlbedo<T> dfg = lighting.Dfg(n_dot_v, roughness);
+      const SpecularAlbedo<T> dfg = p.geometry == LectureGeometry::SchlickGgx
+                                        ? lighting.SchlickDfg(p.alpha, n_dot_v, roughness)
+                                        : lighting.Dfg(n_dot_v, roughness);
       const Vec3<T> albedo{k_s.x * dfg.a + dfg.b, k_s.y * dfg.a + dfg.b, k_s.z * dfg.a + dfg.b};
       radiance = lighting.Prefiltered(mirror, roughness) * albedo;
     }

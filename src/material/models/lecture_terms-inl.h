@@ -110,9 +110,10 @@ HWY_INLINE T FresnelConductor(T eta, T k, T v_dot_h) {
   const T norm = Sqrt(real * real + T(4.0f) * eta2 * k2);  // p^2 + q^2
   const T p = Sqrt(Max((norm + real) * T(0.5f), T(0.0f)));
   const T sum = norm + c2, cross = T(2.0f) * p * v_dot_h;
-  const T perpendicular = (sum - cross) / (sum + cross);
+  // The differences are squares of absolute values: not negative, but for rounding.
+  const T perpendicular = Max(sum - cross, T(0.0f)) / (sum + cross);
   const T sum_p = c2 * norm + s2 * s2, cross_p = cross * s2;
-  const T parallel = perpendicular * ((sum_p - cross_p) / (sum_p + cross_p));
+  const T parallel = perpendicular * (Max(sum_p - cross_p, T(0.0f)) / (sum_p + cross_p));
   return T(0.5f) * (perpendicular + parallel);
 }
 
