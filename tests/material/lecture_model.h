@@ -50,7 +50,7 @@ inline lanes::Vec3<double> DirectionOf(double cosine, double azimuth = 0.0) {
 inline double LectureAlbedo(const LectureParameters& p, double n_dot_v, bool of_image = false) {
   const lanes::Vec3<double> view = DirectionOf(n_dot_v);
   const auto surface = LectureSeenFrom<double>(p, view);
-  constexpr int kPolar = 500, kAzimuth = 96;
+  constexpr int kPolar = 300, kAzimuth = 64;
   constexpr double kPi = 3.14159265358979324;
   const double low = std::log(surface.microfacets.alpha * 0.01), high = std::log(1e5);
   const double step = (high - low) / kPolar;

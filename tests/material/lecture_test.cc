@@ -1,12 +1,14 @@
 // The model "lecture": closed forms of its terms, norms, energy, reciprocity, the ends of its parameters, its presets.
-#include "material/lecture_model.h"
-
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <random>
+#include <sstream>
 #include <vector>
 
 #include "color/srgb.h"
+#include "material/lecture_energy.h"
+#include "material/lecture_model.h"
 #include "material/models/lecture_presets.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -359,6 +361,58 @@ TEST(Lecture, ImageAmbient) {
   const lanes::SpecularAlbedo<double> dfg = lighting.SchlickDfg(p.alpha, nv, 0.25);
   const double expected = 0.5 * (f * dfg.a + dfg.b + (1.0 - f) * 0.5 * double{p.albedo.value.x});
   EXPECT_NEAR(LectureImageAlbedo(p, nv), expected, 1e-9);
+}
+
+// The table of the albedo with lectures' geometry term, against the same integral with another quadrature.
+TEST(Lecture, SchlickDfgTable) {
+  double worst[2] = {};
+  for (const LectureAlpha alpha : {LectureAlpha::RoughnessSquared, LectureAlpha::Roughness}) {
+    LectureParameters p;
+    p.diffuse = LectureDiffuse::None;
+    p.alpha = alpha;
+    for (const float roughness : {0.1f, 0.2f, 0.33f, 0.5f, 0.77f, 1.0f}) {
+      p.roughness.value = roughness;
+      for (const double n_dot_v : {0.05, 0.1, 0.2, 0.4, 0.7, 1.0}) {
+        const double r = LectureSeenFrom<double>(p, DirectionOf(n_dot_v)).microfacets.PerceptualRoughness();
+        const lanes::SpecularAlbedo<double> read = WhiteLighting().SchlickDfg(alpha, n_dot_v, r);
+        p.f0 = 1.0f;
+        const double sum = LectureAlbedo(p, n_dot_v, /*of_image=*/true);
+        p.f0 = 0.0f;
+        const double b = LectureAlbedo(p, n_dot_v, /*of_image=*/true);
+        double& off = worst[static_cast<std::size_t>(alpha)];
+        off = std::max({off, std::fabs(read.a + read.b - sum), std::fabs(read.b - b)});
+      }
+    }
+  }
+  EXPECT_LT(worst[0], 0.01);
+  EXPECT_LT(worst[1], 0.02);
+  RecordProperty("worst", std::to_string(worst[0]) + " " + std::to_string(worst[1]));
+}
+
+// docs/models/lecture.md states what the model gains and loses. lecture_energy writes the table.
+TEST(Lecture, EnergyIsThatOfThePage) {
+  std::ostringstream page;
+  page << std::ifstream(FACET_SOURCE_DIR "/docs/models/lecture.md").rdbuf();
+  std::istringstream lines(page.str());
+  std::string line;
+  int found = 0;
+  while (std::getline(lines, line)) {
+    for (const LectureChoice& choice : LectureChoices()) {
+      if (!line.starts_with(std::string("| ") + choice.name + " | ")) continue;
+      std::string numbers = line.substr(std::string("| ").size() + std::string(choice.name).size());
+      std::ranges::replace(numbers, '|', ' ');
+      std::istringstream row(numbers);
+      float roughness = 0.0f;
+      row >> roughness;
+      for (const double share : LectureEnergy(choice, roughness)) {
+        double printed = -1.0;
+        row >> printed;
+        EXPECT_NEAR(printed, share, 0.0051) << line;
+      }
+      ++found;
+    }
+  }
+  EXPECT_EQ(found, int(LectureChoices().size() * kLectureRoughnesses.size()));
 }
 
 // --- Presets ----------------------------------------------------------------------------------------------------------
