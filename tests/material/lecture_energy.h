@@ -62,8 +62,9 @@ inline LectureEnergyRow LectureEnergy(const LectureChoice& choice, float roughne
 }
 
 inline std::string LectureEnergyTable() {
-  std::string text = "| choice | roughness | metalness 0: n·v 1 | 0.5 | 0.1 | metalness 0.5: 1 | 0.5 | 0.1 "
-                     "| metalness 1: 1 | 0.5 | 0.1 |\n|---|---|---|---|---|---|---|---|---|---|---|\n";
+  std::string text =
+      "| choice | roughness | metalness 0: n·v 1 | 0.5 | 0.1 | metalness 0.5: 1 | 0.5 | 0.1 "
+      "| metalness 1: 1 | 0.5 | 0.1 |\n|---|---|---|---|---|---|---|---|---|---|---|\n";
   for (const LectureChoice& choice : LectureChoices()) {
     for (const float roughness : kLectureRoughnesses) {
       char number[32];

@@ -160,7 +160,9 @@ TEST(LectureFresnel, Conductor) {
         EXPECT_GE(f, 0.0);
         EXPECT_LE(f, 1.0 + 1e-12);
         // Without absorption it is a dielectric.
-        if (k == 0.0 && eta > 1.0) { EXPECT_NEAR(f, lanes::FresnelDielectric(eta, c), 1e-9); }
+        if (k == 0.0 && eta > 1.0) {
+          EXPECT_NEAR(f, lanes::FresnelDielectric(eta, c), 1e-9);
+        }
       }
     }
   }
@@ -180,7 +182,7 @@ TEST(LectureFresnel, KsAndKd) {
   }
 }
 
-// --- The specular term of Blinn and Phong -----------------------------------------------------------------------------
+// --- The specular term of Blinn and Phong ----------------------------------------------------------------------------
 
 // At normal incidence (p + 8) / (8 pi) (n.h)^p reflects (p + 8) / 8 times 8 (p + 2^(-p/2)) / ((p + 2)(p + 4)), by
 // substitution of the half angle.
@@ -198,7 +200,7 @@ TEST(LectureBlinnPhong, AlbedoAtNormalIncidence) {
   }
 }
 
-// --- The whole --------------------------------------------------------------------------------------------------------
+// --- The whole -------------------------------------------------------------------------------------------------------
 
 template <class Visit>
 void ForEachChoice(const Visit& visit) {
@@ -279,7 +281,9 @@ TEST(Lecture, ExtremesAreFiniteAndFloatAgreesWithDouble) {
                 return Vec3<float>{s * std::cos(turn), s * std::sin(turn), cosine};
               };
               const Vec3<float> v = unit(nv, 0.0f), l = unit(nl, azimuth);
-              const auto wide = [](const Vec3<float>& d) { return Vec3<double>{double{d.x}, double{d.y}, double{d.z}}; };
+              const auto wide = [](const Vec3<float>& d) {
+                return Vec3<double>{double{d.x}, double{d.y}, double{d.z}};
+              };
               const auto of_float = LectureSeenFrom<float>(p, v);
               const auto of_double = LectureSeenFrom<double>(p, wide(v));
               for (const bool of_image : {false, true}) {
@@ -415,7 +419,7 @@ TEST(Lecture, EnergyIsThatOfThePage) {
   EXPECT_EQ(found, int(LectureChoices().size() * kLectureRoughnesses.size()));
 }
 
-// --- Presets ----------------------------------------------------------------------------------------------------------
+// --- Presets ---------------------------------------------------------------------------------------------------------
 
 // A printed linear value stands for all that round to it: half a unit of its last digit to either side (0.02 for 0.015
 // to 0.025). The printed 8-bit code must be that of one of them. It is that of the printed value itself in all but two:
