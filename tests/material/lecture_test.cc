@@ -388,8 +388,8 @@ TEST(Lecture, SchlickDfgTable) {
       }
     }
   }
-  EXPECT_LT(worst[0], 0.01);
-  EXPECT_LT(worst[1], 0.02);
+  EXPECT_LT(worst[0], 0.004);
+  EXPECT_LT(worst[1], 0.006);
   RecordProperty("worst", std::to_string(worst[0]) + " " + std::to_string(worst[1]));
 }
 
