@@ -134,7 +134,8 @@ void ComputeTable(DfgTable* table, const SchlickK& schlick_k) {
       const double root = first + (1.0 - first) * double(row) / (DfgTable::kRows - 1);
       const double alpha = (root * root) * (root * root);
       float* albedo = table->albedo + row * DfgTable::kColumns * 2;
-      integrate({static_cast<float>(alpha), static_cast<float>(schlick_k(alpha)), kPolar, kAzimuth, polar, polar_weight, cos_azimuth, n_dot_v, albedo});
+      integrate({static_cast<float>(alpha), static_cast<float>(schlick_k(alpha)), kPolar, kAzimuth, polar, polar_weight,
+                 cos_azimuth, n_dot_v, albedo});
       table->average[2 * row] = static_cast<float>(AverageOverHemisphere(albedo));
       table->average[2 * row + 1] = static_cast<float>(AverageOverHemisphere(albedo + 1));
     }

@@ -11,7 +11,7 @@ namespace facet {
 enum class LectureWorkflow : std::uint8_t { MetallicRoughness, SpecularGlossiness };
 enum class LectureDiffuse : std::uint8_t { Lambert, None };
 enum class LectureSpecular : std::uint8_t { CookTorrance, BlinnPhong, None };
-enum class LectureDistribution : std::uint8_t { Ggx, Beckmann, BlinnPhong, Abc };
+enum class LectureDistribution : std::uint8_t { Ggx, BlinnPhong, Beckmann, Abc };
 enum class LectureGeometry : std::uint8_t { SchlickGgx, Smith };
 enum class LectureFresnel : std::uint8_t { Schlick, Exact };
 enum class LectureAmbient : std::uint8_t { Image, Constant };

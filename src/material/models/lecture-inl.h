@@ -6,7 +6,8 @@
 // Image-based light is the split sum as such lectures compute it: with F of n.v and the roughness,
 //   (kD albedo irradiance / pi + prefiltered (F A + B)) ao,   kS = F,
 // where the prefiltered radiance and A, B are those of GGX (A, B with the geometry term that is chosen), whatever the
-// distribution is, at the alpha whose GGX has the same peak. What it approximates, and the reference integrates, is the reflectance above with the k of image-based light.
+// distribution is, at the alpha whose GGX has the same peak. What it approximates, and the reference integrates, is the
+// reflectance above with the k of image-based light.
 
 #if defined(FACET_MATERIAL_MODELS_LECTURE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef FACET_MATERIAL_MODELS_LECTURE_INL_H_
@@ -37,9 +38,9 @@ struct LectureMicrofacets {
     const auto bounded = [](T value) HWY_ATTR { return Clamp(value, T(kLeast), T(1.0f)); };
     roughness = Clamp(stated_roughness, T(0.0f), T(1.0f));
     alpha = bounded(p.alpha == LectureAlpha::Roughness ? roughness : roughness * roughness);
-    const bool is_cosine_lobe = p.specular == LectureSpecular::BlinnPhong ||
-                                (p.specular == LectureSpecular::CookTorrance &&
-                                 p.distribution == LectureDistribution::BlinnPhong);
+    const bool is_cosine_lobe =
+        p.specular == LectureSpecular::BlinnPhong ||
+        (p.specular == LectureSpecular::CookTorrance && p.distribution == LectureDistribution::BlinnPhong);
     if (is_cosine_lobe) {
       // A stated exponent has the bound that follows from alpha's.
       exponent = p.exponent == LectureExponent::AlphaP ? T(std::min(p.alpha_p, 2.0f / (kLeast * kLeast) - 2.0f))
@@ -61,7 +62,8 @@ struct LectureMicrofacets {
       case LectureDistribution::Ggx: return DistributionGgx(n_dot_h, sin2, alpha);
       case LectureDistribution::Beckmann: return DistributionBeckmann(n_dot_h, sin2, alpha);
       case LectureDistribution::BlinnPhong: return DistributionBlinnPhong(n_dot_h, sin2, exponent);
-      case LectureDistribution::Abc: return DistributionAbc(n_dot_h, sin2, T(BoundedAlpha1(p.alpha1)), T(p.alpha2), abc_peak_);
+      case LectureDistribution::Abc:
+        return DistributionAbc(n_dot_h, sin2, T(BoundedAlpha1(p.alpha1)), T(p.alpha2), abc_peak_);
     }
     return T(0.0f);
   }
@@ -159,9 +161,8 @@ struct LectureScattering {
     if (p.ambient == LectureAmbient::Constant) return {};
     Vec3<T> k_s{}, radiance{};
     if (p.specular != LectureSpecular::None) {
-      const auto with_roughness = [&](T f) HWY_ATTR {
-        return FresnelSchlickRoughness(f, microfacets.roughness, n_dot_v);
-      };
+      const auto with_roughness = [&](T f)
+                                      HWY_ATTR { return FresnelSchlickRoughness(f, microfacets.roughness, n_dot_v); };
       k_s = {with_roughness(f0.x), with_roughness(f0.y), with_roughness(f0.z)};
       const Vec3<T> mirror = normal * (T(2.0f) * Dot(normal, view)) - view;
       const T roughness = microfacets.PerceptualRoughness();

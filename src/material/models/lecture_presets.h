@@ -1,7 +1,7 @@
 // Reflectances at normal incidence, F0, of substances in air: linear, and as the 8-bit codes of sRGB. Akenine-Moeller,
 // Haines, Hoffman, Pesce, Iwanicki and Hillaire, 2018, Real-Time Rendering, fourth edition, tables 9.1 (dielectrics),
-// 9.2 (metals) and 9.3 (the diamond and the semiconductor). Ranges have two rows, of their ends. The primaries are those
-// of Rec. 709; gold's red lies slightly beyond them, and the book has it clamped to 1.
+// 9.2 (metals) and 9.3 (the diamond and the semiconductor). Ranges have two rows, of their ends. The primaries are
+// those of Rec. 709; gold's red lies slightly beyond them, and the book has it clamped to 1.
 //
 // Lectures round some of these: plastic and glass 0.040 to 0.045 (the book: to 0.05), like diamond from 0.100 (the
 // book: from 0.13).
@@ -77,12 +77,14 @@ inline constexpr auto kLecturePresetWords = [] {
   return words;
 }();
 
-static_assert([] {
-  for (std::size_t i = 0; i < kLecturePresets.size(); ++i) {
-    if (kLecturePresets[i].preset != static_cast<LecturePreset>(i)) return false;
-  }
-  return kLecturePresets.size() == static_cast<std::size_t>(LecturePreset::Silver) + 1;
-}(), "the rows stand in the order of the enumeration");
+static_assert(
+    [] {
+      for (std::size_t i = 0; i < kLecturePresets.size(); ++i) {
+        if (kLecturePresets[i].preset != static_cast<LecturePreset>(i)) return false;
+      }
+      return kLecturePresets.size() == static_cast<std::size_t>(LecturePreset::Silver) + 1;
+    }(),
+    "the rows stand in the order of the enumeration");
 
 constexpr const LecturePresetRow& PresetOf(LecturePreset preset) {
   return kLecturePresets[static_cast<std::size_t>(preset)];

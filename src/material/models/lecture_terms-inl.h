@@ -16,7 +16,7 @@ HWY_BEFORE_NAMESPACE();
 namespace facet {
 namespace HWY_NAMESPACE {
 
-// --- Distributions: the integral of D(h) n.h over the hemisphere is 1 -------------------------------------------------
+// --- Distributions: the integral of D(h) n.h over the hemisphere is 1 ------------------------------------------------
 
 // ln(n.h) to the relative precision of sin2_n_h: half of ln(1 - sin^2) by its series where n and h are close.
 template <class T>
@@ -54,7 +54,7 @@ HWY_INLINE T DistributionAbc(T n_dot_h, T sin2_n_h, T alpha1, T alpha2, T peak) 
   return peak * Exp2(-alpha2 * Log2(T(1.0f) + alpha1 * below));
 }
 
-// --- Visibility: masking and shadowing, G, divided by 4 n.l n.v -------------------------------------------------------
+// --- Visibility: masking and shadowing, G, divided by 4 n.l n.v ------------------------------------------------------
 
 // G1(n.l) G1(n.v) with G1(x) = x / (x (1 - k) + k). Schlick, 1994, An Inexpensive BRDF Model for Physically-based
 // Rendering; k by Karis, 2013, Real Shading in Unreal Engine 4. Finite while k > 0.
@@ -64,10 +64,10 @@ HWY_INLINE T VisibilitySchlick(T n_dot_l, T n_dot_v, T k) {
   return T(0.25f) / ((n_dot_l * rest + k) * (n_dot_v * rest + k));
 }
 
-// Height-correlated Smith of Beckmann's distribution: 1 / (1 + Lambda(l) + Lambda(v)), with Lambda by the rational fit of
-// Heitz, 2014, Understanding the Masking-Shadowing Function in Microfacet-Based BRDFs, table 2 (after Walter et al.,
-// 2007): (1 - 1.259 a + 0.396 a^2) / (3.535 a + 2.181 a^2) for a = n.x / (alpha sin) below 1.6, else 0. Both cosines are
-// multiplied into it, so that it is finite while n.v > 0 and n.l >= 0.
+// Height-correlated Smith of Beckmann's distribution: 1 / (1 + Lambda(l) + Lambda(v)), with Lambda by the rational fit
+// of Heitz, 2014, Understanding the Masking-Shadowing Function in Microfacet-Based BRDFs, section 5.3 (after Walter et
+// al., 2007): (1 - 1.259 a + 0.396 a^2) / (3.535 a + 2.181 a^2) for a = n.x / (alpha sin) below 1.6, else 0. Both
+// cosines are multiplied into it, so that it is finite while n.v > 0 and n.l >= 0.
 template <class T>
 HWY_INLINE T CosineTimesLambdaBeckmann(T cosine, T alpha) {
   const T spread = alpha * Sqrt(Max(T(1.0f) - cosine * cosine, T(0.0f)));  // cosine / a
@@ -82,7 +82,7 @@ HWY_INLINE T VisibilitySmithBeckmann(T n_dot_l, T n_dot_v, T alpha) {
                      n_dot_l * CosineTimesLambdaBeckmann(n_dot_v, alpha));
 }
 
-// --- Fresnel's equations, unpolarised light ---------------------------------------------------------------------------
+// --- Fresnel's equations, unpolarised light --------------------------------------------------------------------------
 
 // A dielectric in air, of index of refraction 1 or more. Cook and Torrance, 1982, A Reflectance Model for Computer
 // Graphics, with c = v.h and g^2 = ior^2 - 1 + c^2. 1 at c = 0 for every index above 1.
