@@ -7,6 +7,7 @@ namespace facet {
 struct AlbedoTables {
   bool sheen = false;            // SheenTable
   bool anisotropic_dfg = false;  // AnisotropicDfgTable
+  bool schlick_dfg[2] = {};      // SharedSchlickDfgTable() of either LectureAlpha
 };
 
 }  // namespace facet

@@ -5,6 +5,7 @@
 #include "facet/shader/brdf-inl.h"
 #include "facet/shader/dispatch.h"
 #include "light/dfg.h"
+#include "material/models/lecture_terms-inl.h"
 
 #ifndef FACET_LIGHT_DFG_TASK
 #define FACET_LIGHT_DFG_TASK
@@ -13,6 +14,7 @@ namespace facet {
 // Inputs and outputs of the kernel that computes one row of the table.
 struct DfgRowTask {
   float alpha;
+  float schlick_k;  // of VisibilitySchlick(); 0: height-correlated Smith
   int polar_count, azimuth_count;
   const float* polar;         // tan(theta_h) / alpha
   const float* polar_weight;  // see IntegrateDfgRow; constant factors included
@@ -50,7 +52,9 @@ void IntegrateDfgRow(const DfgRowTask& task) {
       for (int j = 0; j < task.azimuth_count; ++j) {
         const Float v_dot_h = reach * Float(task.cos_azimuth[j]) + v_dot_h_mean;
         const Float n_dot_l = Max(Float(2.0f) * v_dot_h * n_dot_h - n_dot_v, Float(0.0f));  // > 0 only if v_dot_h > 0
-        const Float weight = VisibilitySmith(n_dot_l, n_dot_v, Float(task.alpha)) * n_dot_l * v_dot_h;
+        const Float visibility = task.schlick_k > 0.0f ? VisibilitySchlick(n_dot_l, n_dot_v, Float(task.schlick_k))
+                                                       : VisibilitySmith(n_dot_l, n_dot_v, Float(task.alpha));
+        const Float weight = visibility * n_dot_l * v_dot_h;
         const Float fresnel = weight * SchlickWeight(v_dot_h);
         ring_a += weight - fresnel;
         ring_b += fresnel;
@@ -106,9 +110,9 @@ double AverageOverHemisphere(const float* albedo) {
   return sum;
 }
 
-}  // namespace
-
-void ComputeDfgTable(DfgTable* table) {
+// `schlick_k(alpha)`: that of a row.
+template <class SchlickK>
+void ComputeTable(DfgTable* table, const SchlickK& schlick_k) {
   float polar[kPolar], polar_weight[kPolar], cos_azimuth[kAzimuth], n_dot_v[DfgTable::kColumns];
   const double polar_step = (kLastLogTangent - kFirstLogTangent) / kPolar;
   for (int i = 0; i < kPolar; ++i) {
@@ -130,19 +134,38 @@ void ComputeDfgTable(DfgTable* table) {
       const double root = first + (1.0 - first) * double(row) / (DfgTable::kRows - 1);
       const double alpha = (root * root) * (root * root);
       float* albedo = table->albedo + row * DfgTable::kColumns * 2;
-      integrate({static_cast<float>(alpha), kPolar, kAzimuth, polar, polar_weight, cos_azimuth, n_dot_v, albedo});
+      integrate({static_cast<float>(alpha), static_cast<float>(schlick_k(alpha)), kPolar, kAzimuth, polar, polar_weight,
+                 cos_azimuth, n_dot_v, albedo});
       table->average[2 * row] = static_cast<float>(AverageOverHemisphere(albedo));
       table->average[2 * row + 1] = static_cast<float>(AverageOverHemisphere(albedo + 1));
     }
   });
 }
 
+template <class SchlickK>
+std::unique_ptr<const DfgTable> MakeTable(const SchlickK& schlick_k) {
+  auto made = std::make_unique<DfgTable>();
+  ComputeTable(made.get(), schlick_k);
+  return made;
+}
+
+constexpr auto kSmith = [](double) { return 0.0; };
+
+}  // namespace
+
+void ComputeDfgTable(DfgTable* table) { ComputeTable(table, kSmith); }
+
 const DfgTable& SharedDfgTable() {
-  static const std::unique_ptr<const DfgTable> table = [] {
-    auto made = std::make_unique<DfgTable>();
-    ComputeDfgTable(made.get());
-    return made;
-  }();
+  static const std::unique_ptr<const DfgTable> table = MakeTable(kSmith);
+  return *table;
+}
+
+const DfgTable& SharedSchlickDfgTable(LectureAlpha alpha) {
+  if (alpha == LectureAlpha::RoughnessSquared) {
+    static const std::unique_ptr<const DfgTable> table = MakeTable([](double a) { return a / 2.0; });
+    return *table;
+  }
+  static const std::unique_ptr<const DfgTable> table = MakeTable([](double a) { return a * a / 2.0; });
   return *table;
 }
 

@@ -1,6 +1,8 @@
 // The directional albedo of the specular lobe: the second half of the split-sum approximation.
 #pragma once
 
+#include "facet/models/lecture.h"
+
 namespace facet {
 
 // Directional albedo of single-scattering GGX with height-correlated Smith: F0 * A + B where Fresnel is Schlick's with
@@ -22,6 +24,11 @@ struct DfgTable {
 
 // The table that all renderers share, computed at the first call. Thread-safe.
 const DfgTable& SharedDfgTable();
+
+// The same with the masking and shadowing that lectures have for image-based light: Schlick's form of Smith's, k =
+// roughness^2 / 2. Rows are those of GGX's perceptual roughness, the square root of alpha, all the same. With `alpha`
+// the roughness itself, k is so small that A + B exceeds 1 at grazing views. Thread-safe.
+const DfgTable& SharedSchlickDfgTable(LectureAlpha alpha);
 
 // Computes a table, with the same bits on every instruction set and for any number of threads.
 void ComputeDfgTable(DfgTable* table);

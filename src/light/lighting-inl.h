@@ -177,6 +177,10 @@ class LightingView {
   HWY_INLINE SpecularAlbedo<T> Dfg(T n_dot_v, T perceptual_roughness) const {
     return LookupDfg(*data_->dfg, n_dot_v, perceptual_roughness);
   }
+  // The same where masking and shadowing are Schlick's, for `alpha` as the model "lecture" has it.
+  HWY_INLINE SpecularAlbedo<T> SchlickDfg(LectureAlpha alpha, T n_dot_v, T perceptual_roughness) const {
+    return LookupDfg(*data_->schlick_dfg[static_cast<std::size_t>(alpha)], n_dot_v, perceptual_roughness);
+  }
   HWY_INLINE SpecularAlbedo<T> DfgAverage(T perceptual_roughness) const {
     return LookupDfgAverage(*data_->dfg, perceptual_roughness);
   }

@@ -13,6 +13,10 @@ LightingData MakeLightingData(const std::vector<PunctualLight>& lights, const En
   data.dfg = &SharedDfgTable();
   if (tables.sheen) data.sheen = &SharedSheenTable();
   if (tables.anisotropic_dfg) data.anisotropic_dfg = &SharedAnisotropicDfgTable();
+  for (const LectureAlpha alpha : {LectureAlpha::RoughnessSquared, LectureAlpha::Roughness}) {
+    const auto i = static_cast<std::size_t>(alpha);
+    if (tables.schlick_dfg[i]) data.schlick_dfg[i] = &SharedSchlickDfgTable(alpha);
+  }
   // The environment is turned by +rotation, so a direction is looked up turned by -rotation:
   // x' = c x - s z, z' = s x + c z, where turning by +rotation is x' = c x + s z, z' = c z - s x.
   const auto c = static_cast<float>(Cos(rotation));

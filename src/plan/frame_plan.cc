@@ -294,7 +294,17 @@ FramePlan MakeFramePlan(const Scene& scene, const PosedScene& posed, const Rende
   if (settings.samples == 1) plan.disabled.emplace_back("multisampling: one sample a pixel");
   if (!settings.specular_antialiasing) plan.disabled.emplace_back(std::string("specular antialiasing: ") + kOnRequest);
   if (!settings.omit_unused) UseEverything(settings, plan);
-  plan.albedo_tables = {.sheen = any_has(kSheen), .anisotropic_dfg = any_has(kAnisotropy)};
+  const auto reads_schlick_dfg = [&](LectureAlpha alpha) {
+    return plan.environment_light && any([&](const FrameMaterial& m) {
+             if (m.model != ShadingModel::Lecture) return false;
+             const auto& p = m.Parameters<LectureParameters>();
+             return p.ambient == LectureAmbient::Image && p.geometry == LectureGeometry::SchlickGgx && p.alpha == alpha;
+           });
+  };
+  plan.albedo_tables = {
+      .sheen = any_has(kSheen),
+      .anisotropic_dfg = any_has(kAnisotropy),
+      .schlick_dfg = {reads_schlick_dfg(LectureAlpha::RoughnessSquared), reads_schlick_dfg(LectureAlpha::Roughness)}};
   return plan;
 }
 
