@@ -7,6 +7,7 @@ namespace facet {
 struct AlbedoTables {
   bool sheen = false;            // SheenTable
   bool anisotropic_dfg = false;  // AnisotropicDfgTable
+  bool cloth = false;            // SheenTable of Filament's fibres
 };
 
 }  // namespace facet

@@ -12,6 +12,7 @@ LightingData MakeLightingData(const std::vector<PunctualLight>& lights, const En
   data.environment = environment;
   data.dfg = &SharedDfgTable();
   if (tables.sheen) data.sheen = &SharedSheenTable();
+  if (tables.cloth) data.cloth = &SharedClothTable();
   if (tables.anisotropic_dfg) data.anisotropic_dfg = &SharedAnisotropicDfgTable();
   // The environment is turned by +rotation, so a direction is looked up turned by -rotation:
   // x' = c x - s z, z' = s x + c z, where turning by +rotation is x' = c x + s z, z' = c z - s x.

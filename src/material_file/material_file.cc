@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -220,6 +221,12 @@ class MaterialFile {
         states_alpha_mode_ = true;
       }
     });
+    if constexpr (requires { AlphaModeOf(block); }) {
+      if (const std::optional<AlphaMode> mode = AlphaModeOf(block)) {
+        changes.alpha_mode = *mode;
+        states_alpha_mode_ = true;
+      }
+    }
   }
 
   template <class Block>

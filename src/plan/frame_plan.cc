@@ -63,7 +63,8 @@ class Planner {
     f.is_seen_through = f.Has(kTransmission) && (f.shader == nullptr || f.shader->Transmits());
     if (!f.is_seen_through) {
       // A user's shader that knows nothing of what is behind a surface gets the material without transmission.
-      f.features &= ~(kTransmission | kVolume | kDispersion | BitOf(Slot::Transmission) | BitOf(Slot::Thickness));
+      f.features &= ~(kTransmission | kVolume | kDispersion);
+      if (f.parameters == nullptr) f.features &= ~(BitOf(Slot::Transmission) | BitOf(Slot::Thickness));
     }
     ForEachSlotOf(f.model, f.features, [&](const SlotInfo& slot) { BindTexture(material, slot, planned); });
     return planned;
@@ -279,7 +280,14 @@ FramePlan MakeFramePlan(const Scene& scene, const PosedScene& posed, const Rende
   if (plan.planes.empty()) plan.disabled.emplace_back("planes besides colour: not asked for");
   if (settings.samples == 1) plan.disabled.emplace_back("multisampling: one sample a pixel");
   if (!settings.omit_unused) UseEverything(settings, plan);
-  plan.albedo_tables = {.sheen = any_has(kSheen), .anisotropic_dfg = any_has(kAnisotropy)};
+  // Filament's models read only a table of their own.
+  const auto of_others = [&](MaterialFeatures feature) {
+    return any([&](const FrameMaterial& m) { return m.Has(feature) && m.model != ShadingModel::Filament; });
+  };
+  plan.albedo_tables = {
+      .sheen = of_others(kSheen),
+      .anisotropic_dfg = of_others(kAnisotropy),
+      .cloth = any([](const FrameMaterial& m) { return m.Has(kSheen) && m.model == ShadingModel::Filament; })};
   return plan;
 }
 

@@ -132,7 +132,7 @@ glm::dvec3 RadianceOfModel(const ExactMaterial& material, const glm::dvec3& base
     };
     radiance += ScatteredEnvironment(TechniquesOfShapes(scattering), scattered, light, run);
   }
-  return radiance;
+  return FromLanes(lanes::FinishOwn(scattering, ToLanes(radiance)).color);
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 //   Vec3<T> FromEnvironment(Vec3<T> direction, lighting) const;  // what Environment() approximates: its integrand
 //   void ForEachShape(visit) const;                       // visit(normal, alpha) for each specular lobe
 //   bool TransmitsDiffusely() const;                      // whether light from behind counts
+//   Shaded<T> Finish(Vec3<T> radiance) const;             // may be left out: what becomes of all its light
 // The reference integrates FromEnvironment() over all directions; the last two say where it is large.
 
 #if defined(FACET_MATERIAL_MODELS_OWN_MODEL_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -67,6 +68,16 @@ HWY_INLINE Vec3<T> ReadParameter(const Source& from, const TangentSpaceNormal& p
       tangent * T(value.x) + bitangent * T(value.y) + from.InterpolatedNormal() * T(value.z), from.Normal());
 }
 
+// The surface with all its light.
+template <class Scattering, class T>
+HWY_INLINE Shaded<T> FinishOwn(const Scattering& scattering, const Vec3<T>& radiance) {
+  if constexpr (requires { scattering.Finish(radiance); }) {
+    return scattering.Finish(radiance);
+  } else {
+    return {radiance, scattering.coverage};
+  }
+}
+
 template <class Model>
 struct OwnModel {
   template <class T, class Material, class Lighting>
@@ -79,15 +90,21 @@ struct OwnModel {
   static HWY_INLINE Shaded<T> With(const Surface<T>& surface, const Material& material, const Lighting& lighting) {
     return material.Read(surface, [&](const auto& source, const Vec4<T>& base) HWY_ATTR {
       const auto scattering = Model::template Make<T>(source, base, surface.view, lighting);
-      Vec3<T> radiance = scattering.Emission();
-      if (lighting.HasEnvironment()) radiance += scattering.Environment(lighting);
-      const int light_count = lighting.LightCount();
-      for (int i = 0; i < light_count; ++i) {
-        const LightSample<T> light = lighting.Sample(i, surface.position);
-        radiance += scattering.Direct(light.direction, lighting) * light.irradiance;
-      }
-      return Shaded<T>{radiance, scattering.coverage};
+      return FinishOwn(scattering, AllLight(scattering, surface.position, lighting));
     });
+  }
+
+  // Of the emission, the environment and the punctual lights.
+  template <class Scattering, class T, class Lighting>
+  static HWY_INLINE Vec3<T> AllLight(const Scattering& scattering, const Vec3<T>& position, const Lighting& lighting) {
+    Vec3<T> radiance = scattering.Emission();
+    if (lighting.HasEnvironment()) radiance += scattering.Environment(lighting);
+    const int light_count = lighting.LightCount();
+    for (int i = 0; i < light_count; ++i) {
+      const LightSample<T> light = lighting.Sample(i, position);
+      radiance += scattering.Direct(light.direction, lighting) * light.irradiance;
+    }
+    return radiance;
   }
 };
 
