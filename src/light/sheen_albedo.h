@@ -22,7 +22,7 @@ struct SheenTable {
 // The table that all renderers share, computed at the first call. Thread-safe.
 const SheenTable& SharedSheenTable();
 
-// The same for the fibres of the model "filament" (material/models/filament/terms-inl.h), which never exceeds 1.
+// The same for the fibres of the model "filament" (material/models/filament/terms-inl.h).
 const SheenTable& SharedClothTable();
 
 // Computes a table, with the same bits on every instruction set and for any number of threads.

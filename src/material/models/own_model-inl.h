@@ -31,16 +31,22 @@ HWY_BEFORE_NAMESPACE();
 namespace facet {
 namespace HWY_NAMESPACE {
 
+// A texel. A function of its own, because models have dozens of textures.
+template <int kChannels, class T, class Source>
+HWY_NOINLINE Vec4<T> ReadTexel(const Source& from, Slot slot) {
+  return from.template Read<kChannels>(slot);
+}
+
 // A number: its value times the texture's channel.
 template <class T, class Source>
 HWY_INLINE T ReadParameter(const Source& from, const Textured<float>& parameter, Slot slot) {
   const T value(parameter.value);
   if (!from.Has(BitOf(slot))) return value;
   switch (parameter.channel) {
-    case 0: return value * from.template Read<kR>(slot).x;
-    case 1: return value * from.template Read<kG>(slot).y;
-    case 2: return value * from.template Read<kB>(slot).z;
-    default: return value * from.template Read<kA>(slot).w;
+    case 0: return value * ReadTexel<kR, T>(from, slot).x;
+    case 1: return value * ReadTexel<kG, T>(from, slot).y;
+    case 2: return value * ReadTexel<kB, T>(from, slot).z;
+    default: return value * ReadTexel<kA, T>(from, slot).w;
   }
 }
 
@@ -48,12 +54,12 @@ HWY_INLINE T ReadParameter(const Source& from, const Textured<float>& parameter,
 template <class T, class Source>
 HWY_INLINE Vec3<T> ReadParameter(const Source& from, const Textured<glm::vec3>& parameter, Slot slot) {
   const Vec3<T> value{T(parameter.value.x), T(parameter.value.y), T(parameter.value.z)};
-  return from.Has(BitOf(slot)) ? value * Xyz(from.template Read<kRgb>(slot)) : value;
+  return from.Has(BitOf(slot)) ? value * Xyz(ReadTexel<kRgb, T>(from, slot)) : value;
 }
 template <class T, class Source>
 HWY_INLINE Vec4<T> ReadParameter(const Source& from, const Textured<glm::vec4>& parameter, Slot slot) {
   const Vec4<T> value{T(parameter.value.x), T(parameter.value.y), T(parameter.value.z), T(parameter.value.w)};
-  return from.Has(BitOf(slot)) ? value * from.template Read<kRgba>(slot) : value;
+  return from.Has(BitOf(slot)) ? value * ReadTexel<kRgba, T>(from, slot) : value;
 }
 
 // A direction given in tangent space, in world axes: unit.

@@ -27,6 +27,12 @@ HWY_INLINE Vec3<T> DirectSpecular(const FilamentSurface<T>& s, const Vec3<T>& li
   return (s.f0 * rest + Grey(grazing)) * single;
 }
 
+// Of sheen or cloth, of colour 1.
+template <class T>
+HWY_INLINE T DirectFibres(const FilamentSurface<T>& s, const Incidence<T>& from) {
+  return Fibres(s.at.normal, from.half, from.n_dot_l, s.at.n_dot_v, s.sheen.inverse_alpha) * s.fibre_scale;
+}
+
 // The clear coat times its cosine, and Fc: the share of light that it keeps from what is under it.
 template <class T>
 struct CoatReflection {
@@ -42,14 +48,14 @@ HWY_INLINE CoatReflection<T> DirectCoat(const FilamentSurface<T>& s, const Vec3<
 
 // Lit and specularGlossiness. Light passes down from the coat, through the sheen, to the base.
 template <class T>
-HWY_INLINE Vec3<T> DirectLit(const FilamentSurface<T>& s, const Vec3<T>& light) {
+HWY_NOINLINE Vec3<T> DirectLit(const FilamentSurface<T>& s, const Vec3<T>& light) {
   const T n_dot_l = Dot(s.at.normal, light);
   const Incidence<T> from = IncidenceFrom(s.at, light);
   Vec3<T> brdf = s.diffuse_color * (T(kInversePi) * (T(1.0f) - s.transmission)) +
                  DirectSpecular(s, light, from) * s.compensation;
   if (s.has_sheen) {
     brdf = brdf * s.SheenLeft() +
-           s.sheen_color * Fibres(s.at.normal, from.half, from.n_dot_l, s.at.n_dot_v, s.sheen.inverse_alpha);
+           s.sheen_color * DirectFibres(s, from);
   }
   Vec3<T> sum = brdf * from.n_dot_l;
   if (s.has_coat) {
@@ -60,9 +66,9 @@ HWY_INLINE Vec3<T> DirectLit(const FilamentSurface<T>& s, const Vec3<T>& light) 
 }
 
 template <class T>
-HWY_INLINE Vec3<T> DirectCloth(const FilamentSurface<T>& s, const Vec3<T>& light) {
+HWY_NOINLINE Vec3<T> DirectCloth(const FilamentSurface<T>& s, const Vec3<T>& light) {
   const Incidence<T> from = IncidenceFrom(s.at, light);
-  const T fibres = Fibres(s.at.normal, from.half, from.n_dot_l, s.at.n_dot_v, s.sheen.inverse_alpha);
+  const T fibres = DirectFibres(s, from);
   Vec3<T> diffuse = s.diffuse_color * T(kInversePi);
   if (s.has_subsurface) {
     diffuse = diffuse * WrappedCosine(Dot(s.at.normal, light), 0.5f) *
@@ -74,7 +80,7 @@ HWY_INLINE Vec3<T> DirectCloth(const FilamentSurface<T>& s, const Vec3<T>& light
 }
 
 template <class T>
-HWY_INLINE Vec3<T> DirectSubsurface(const FilamentSurface<T>& s, const Vec3<T>& light) {
+HWY_NOINLINE Vec3<T> DirectSubsurface(const FilamentSurface<T>& s, const Vec3<T>& light) {
   const T one(1.0f);
   const Incidence<T> from = IncidenceFrom(s.at, light);
   const Vec3<T> specular = Select<T>(from.n_dot_l > T(0.0f), DirectSpecular(s, light, from) * s.compensation,

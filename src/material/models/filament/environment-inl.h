@@ -34,7 +34,7 @@ HWY_INLINE EnvironmentFactors<T> FactorsOf(const FilamentSurface<T>& s) {
   const FilamentParameters& p = *s.block;
   const T one(1.0f);
   // Filament does not apply it to surfaces that are blended.
-  const Occlusion kind = s.blending == Blending::Opaque ? p.specular_ambient_occlusion : Occlusion::None;
+  const Occlusion kind = s.is_occluded && s.blending == Blending::Opaque ? p.specular_ambient_occlusion : Occlusion::None;
   const auto specular_occlusion = [&](T n_dot_v, T alpha) HWY_ATTR {
     switch (kind) {
       case Occlusion::None: break;
@@ -45,7 +45,7 @@ HWY_INLINE EnvironmentFactors<T> FactorsOf(const FilamentSurface<T>& s) {
   };
   EnvironmentFactors<T> f;
   const T specular = specular_occlusion(s.at.n_dot_v, s.alpha);
-  const bool bounces = p.multi_bounce_ambient_occlusion;
+  const bool bounces = s.is_occluded && p.multi_bounce_ambient_occlusion;
   f.specular = s.compensation * (bounces && kind != Occlusion::None ? MultiBounceOcclusion(specular, s.f0) : Grey(specular));
   const Vec3<T> dims = bounces ? MultiBounceOcclusion(s.occlusion, s.diffuse_color) : Grey(s.occlusion);
   f.diffuse = s.diffuse_color * (Grey(one) - s.reflected);
@@ -80,8 +80,9 @@ HWY_INLINE T RoughnessFromBehind(const FilamentSurface<T>& s) {
   return T(1.0f) - Sqrt(Max(T(1.0f) - level, T(0.0f)));
 }
 
+// A function of its own, as those of direct light: its kernels share it.
 template <class T, class Lighting>
-HWY_INLINE Vec3<T> FromPrefiltered(const FilamentSurface<T>& s, const Lighting& lighting) {
+HWY_NOINLINE Vec3<T> FromPrefiltered(const FilamentSurface<T>& s, const Lighting& lighting) {
   const EnvironmentFactors<T> f = FactorsOf(s);
   Vec3<T> mirror = s.mirror;
   if (s.is_anisotropic) {
@@ -113,9 +114,7 @@ HWY_INLINE Vec3<T> FromOneDirection(const FilamentSurface<T>& s, const Vec3<T>& 
   const T zero(0.0f), one(1.0f);
   const Incidence<T> from = IncidenceFrom(s.at, light);
   const bool is_cloth = s.shading == Shading::Cloth;
-  const T fibres = is_cloth || s.has_sheen
-                       ? Fibres(s.at.normal, from.half, from.n_dot_l, s.at.n_dot_v, s.sheen.inverse_alpha) * from.n_dot_l
-                       : zero;
+  const T fibres = is_cloth || s.has_sheen ? DirectFibres(s, from) * from.n_dot_l : zero;
   const Vec3<T> single = is_cloth ? s.sheen_color * fibres : DirectSpecular(s, light, from) * from.n_dot_l;
   Vec3<T> sum = single * f.specular;
   if (s.has_sheen) sum += f.sheen * fibres;
@@ -124,16 +123,17 @@ HWY_INLINE Vec3<T> FromOneDirection(const FilamentSurface<T>& s, const Vec3<T>& 
   sum += f.diffuse * cosine;
   if (s.shading == Shading::Subsurface) {
     // A lobe about the direction straight ahead, as wide as the reflection of microfacets seen from their front.
-    const Vec3<T> ahead = -s.at.view;
+    const T half_cosine = T(0.5f) * Clamp(Dot(s.at.view, light), T(-1.0f), one);
     const T alpha = AlphaFromPerceptualRoughness(Max(RoughnessFromBehind(s), T(kMinPerceptualRoughness)));
-    const T lobe = DistributionGgx(ahead, NormalizeOr(ahead + light, s.at.normal), alpha) * T(0.25f);
+    const T lobe = DistributionGgx(Sqrt(T(0.5f) - half_cosine), T(0.5f) + half_cosine, alpha) * T(0.25f);
     sum += f.subsurface * (cosine + lobe);
   }
   if (s.has_coat) {
     const Incidence<T> on_coat = IncidenceFrom(s.coat_at, light);
     const T lobe = DistributionGgx(s.coat_at.normal, on_coat.half, s.coat_alpha) *
                    VisibilitySmith(on_coat.n_dot_l, s.coat_at.n_dot_v, s.coat_alpha) * on_coat.n_dot_l;
-    sum += Grey(lobe * f.coat * f.coat_fresnel / Max(s.coat_albedo, T(1e-4f)));
+    const T coat = lobe * f.coat * f.coat_fresnel / Max(s.coat_albedo, T(1e-4f));
+    sum += Grey(Select(on_coat.n_dot_l > zero, coat, zero));
   }
   return sum;
 }

@@ -51,12 +51,13 @@ HWY_INLINE T SpecularOcclusionOfCones(const Vec3<T>& bent_normal, const Vec3<T>&
   return Mix(T(1.0f), share, x * x * (T(3.0f) - T(2.0f) * x));
 }
 
-// Occlusion with the light that occluded surfaces of this colour reflect to one another (the same, section 4).
+// Occlusion with the light that occluded surfaces of this colour reflect to one another (the same, section 4). The fit
+// is 1.0001 where nothing is occluded, and is bounded to 1.
 template <class T>
 HWY_INLINE T MultiBounceOcclusion(T visibility, T albedo) {
   const T a = T(2.0404f) * albedo - T(0.3324f), b = T(-4.7951f) * albedo + T(0.6417f),
           c = T(2.7552f) * albedo + T(0.6903f);
-  return Max(visibility, ((visibility * a + b) * visibility + c) * visibility);
+  return Min(Max(visibility, ((visibility * a + b) * visibility + c) * visibility), T(1.0f));
 }
 template <class T>
 HWY_INLINE Vec3<T> MultiBounceOcclusion(T visibility, const Vec3<T>& albedo) {

@@ -21,8 +21,18 @@ template <class T>
 struct Refraction {
   Vec3<T> tint;     // of what is seen through the surface
   Vec3<T> path[3];  // through the medium, for red, green and blue: metres; zero for thin walls
+  T alpha{};        // GGX's width of the light that passes: narrower where the indices differ less
   T spread{};       // TransmissionLobe::Spread()
 };
+
+// Of the medium, for red, green and blue: the stated index, or that of F0.
+template <class T>
+HWY_INLINE Vec3<T> IndicesOf(const FilamentSurface<T>& s) {
+  const FilamentParameters& p = *s.block;
+  const T one(1.0f), middle = p.ior != 0.0f ? T(p.ior) : IndexOfF0(s.f0.y);
+  const T half_spread = (middle - one) * T(0.025f * p.dispersion);
+  return {Max(middle - half_spread, one), middle, middle + half_spread};
+}
 
 // From where the view enters a sphere of diameter `thickness` to where it leaves it.
 template <class T>
@@ -38,7 +48,8 @@ HWY_INLINE Refraction<T> RefractionAt(const FilamentSurface<T>& s, const Source&
   const Block& p = *s.block;
   const T one(1.0f);
   const bool solid = p.refraction_type == Block::RefractionType::Solid;
-  const T ior = p.ior != 0.0f ? T(p.ior) : IndexOfF0(s.f0.y);
+  const Vec3<T> indices = IndicesOf(s);
+  const T ior = indices.y;
   const Vec3<T> absorption = ReadParameter<T>(from, p.absorption, SlotOf(&Block::absorption));
   Refraction<T> r{};
   Vec3<T> reflected = s.reflected;
@@ -52,18 +63,16 @@ HWY_INLINE Refraction<T> RefractionAt(const FilamentSurface<T>& s, const Source&
     const T stated = ReadParameter<T>(from, p.thickness, SlotOf(&Block::thickness));
     const T thickness = Select(metres_per_unit > T(0.0f), Min(stated, T(1e30f)), T(0.0f));
     const bool disperses = from.Has(kDispersion);
-    for (int c = 0; c < (disperses ? 3 : 1); ++c) {
-      const T of_channel = disperses ? Max(ior + (ior - one) * T(0.025f * static_cast<float>(c - 1) * p.dispersion), one) : ior;
-      r.path[c] = PathThroughSphere(s.at, of_channel, thickness);
-    }
-    const Vec3<T>& middle = r.path[disperses ? 1 : 0];
+    const Vec3<T> middle = PathThroughSphere(s.at, ior, thickness);
+    r.path[0] = disperses ? PathThroughSphere(s.at, indices.x, thickness) : middle;
+    if (disperses) r.path[1] = middle, r.path[2] = PathThroughSphere(s.at, indices.z, thickness);
     distance = Sqrt(Dot(middle, middle));
   }
   r.tint = Bounded(Grey(one) - reflected) * s.diffuse_color * s.transmission *
            TransmissionLobe<T>::Passing(absorption, distance);
   TransmissionLobe<T> lobe;
   const T remapped = s.unclamped_roughness * (one - Bounded(T(3.0f) / ior - T(2.0f)));
-  lobe.unclamped_alpha = AlphaFromPerceptualRoughness(remapped);
+  lobe.unclamped_alpha = r.alpha = AlphaFromPerceptualRoughness(remapped);
   r.spread = lobe.Spread(distance * T(solid ? 1.0f : 0.0f), ior);
   return r;
 }

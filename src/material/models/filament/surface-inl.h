@@ -49,11 +49,14 @@ HWY_INLINE Vec3<T> Grey(T v) {
 
 template <class T>
 struct FilamentSurface {
+  HWY_INLINE FilamentSurface() {}
+
   const FilamentParameters* block = nullptr;
   Shading shading = Shading::Lit;
   Blending blending = Blending::Opaque;  // never AlphaMode
   // Whether these layers are there; the same in all lanes.
-  bool has_coat = false, has_sheen = false, is_anisotropic = false, refracts = false, has_subsurface = false;
+  bool has_coat = false, has_sheen = false, is_anisotropic = false, refracts = false, has_subsurface = false,
+       is_occluded = false;
 
   SurfaceView<T> at;
   Vec3<T> mirror;           // unit, of the view
@@ -70,10 +73,11 @@ struct FilamentSurface {
   FilamentAnisotropy<T> anisotropy;
   Vec3<T> sheen_color;
   FibreRoughness<T> sheen;
-  T fibre_albedo{};  // of sheen or cloth, of colour 1
+  T fibre_albedo{};  // of sheen or cloth, of colour 1: at most 1
+  T fibre_scale{};   // 1 / max(1, E), so that fibres reflect no more than they receive
   SurfaceView<T> coat_at;
   T coat{}, coat_roughness{}, coat_alpha{}, coat_albedo{};  // of F = 1
-  T occlusion{};
+  T occlusion{};            // the share that is visible
   Vec3<T> subsurface_color;
   T subsurface_power{}, thickness{};
   T transmission{};
@@ -105,6 +109,7 @@ class SurfaceReader {
     s.mirror = normal * (T(2.0f) * Dot(normal, view)) - view;
     const bool bends = p_.bent_normal != TangentSpaceNormal{};
     s.diffuse_normal = bends ? ReadParameter<T>(from_, p_.bent_normal, SlotOf(&Block::bent_normal)) : normal;
+    s.is_occluded = p_.ambient_occlusion.value != 1.0f || from_.Has(BitOf(SlotOf(&Block::ambient_occlusion)));
     s.occlusion = Bounded(ReadParameter<T>(from_, p_.ambient_occlusion, SlotOf(&Block::ambient_occlusion)));
     if (s.shading == Shading::Cloth) {
       ReadCloth(s, lighting);
@@ -144,7 +149,7 @@ class SurfaceReader {
     s.sheen = FibreRoughness<T>(ReadParameter<T>(from_, p_.roughness, SlotOf(&Block::roughness)));
     s.perceptual_roughness = s.sheen.perceptual_roughness;
     s.alpha = s.sheen.alpha;
-    s.fibre_albedo = Bounded(lighting.ClothAlbedo(s.at.n_dot_v, s.perceptual_roughness));
+    SetFibreAlbedo(s, lighting);
     s.reflected = s.sheen_color * s.fibre_albedo;
     s.f0 = s.sheen_color;
     s.compensation = Grey(T(1.0f));
@@ -152,6 +157,13 @@ class SurfaceReader {
     if (s.has_subsurface) {
       s.subsurface_color = Bounded(ReadParameter<T>(from_, p_.subsurface_color, SlotOf(&Block::subsurface_color)));
     }
+  }
+
+  template <class Lighting>
+  static HWY_INLINE void SetFibreAlbedo(FilamentSurface<T>& s, const Lighting& lighting) {
+    const T reflected = lighting.ClothAlbedo(s.at.n_dot_v, s.sheen.perceptual_roughness);
+    s.fibre_albedo = Min(reflected, T(1.0f));
+    s.fibre_scale = T(1.0f) / Max(reflected, T(1.0f));
   }
 
   template <class Lighting>
@@ -228,7 +240,7 @@ class SurfaceReader {
     if (s.has_sheen) {
       s.sheen_color = Bounded(ReadParameter<T>(from_, p_.sheen_color, SlotOf(&Block::sheen_color)));
       s.sheen = FibreRoughness<T>(ReadParameter<T>(from_, p_.sheen_roughness, SlotOf(&Block::sheen_roughness)));
-      s.fibre_albedo = Bounded(lighting.ClothAlbedo(s.at.n_dot_v, s.sheen.perceptual_roughness));
+      SetFibreAlbedo(s, lighting);
     }
     s.refracts = from_.Has(kTransmission) && Refracts(p_);
     if (s.refracts) {
@@ -254,7 +266,7 @@ class SurfaceReader {
     const glm::vec3& stated = p_.anisotropy_direction.value;
     Vec3<T> direction{T(stated.x), T(stated.y), T(stated.z)};
     if (from_.Has(BitOf(slot))) {
-      const Vec3<T> texel = Xyz(from_.template Read<kRgb>(slot));
+      const Vec3<T> texel = Xyz(ReadTexel<kRgb, T>(from_, slot));
       direction = texel * T(2.0f) - Grey(T(1.0f));
     }
     const Vec3<T>& normal = s.at.normal;
