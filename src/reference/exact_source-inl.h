@@ -33,6 +33,7 @@ struct ExactSource {
   lanes::Vec3<double> Normal() const { return ToLanes(point.normal); }
   lanes::Vec3<double> InterpolatedNormal() const { return ToLanes(point.interpolated_normal); }
   lanes::Vec4<double> Tangent() const { return ToLanes(point.tangent); }
+  double MetresPerUnit() const { return point.metres_per_unit; }
 };
 
 }  // namespace facet

@@ -37,15 +37,15 @@ ExactInterface ExitAt(const ExactMaterial& material, const SurfacePoint& point) 
 }
 
 ExactEntry EntryAt(const ExactMaterial& material, const glm::dvec3& base_color, const SurfacePoint& point,
-                   double metres_per_unit, const ExactLight& light) {
+                   const ExactLight& light) {
   if (material.Frame().model == ShadingModel::Filament) {
     return FilamentEntryAt(material, glm::dvec4(base_color, 1.0), point, light);
   }
   const ExactSource source{material, point};
   auto in = lanes::ReadInputs<double>(source, ToLanes(glm::dvec4(base_color, 1.0)), material.Frame().features);
   if (material.Frame().model == ShadingModel::SpecularGlossiness) lanes::SetSpecularGlossiness(source, in);
-  const double thickness = in.transmission.thickness * metres_per_unit;
-  in.transmission.thickness = 0.0;  // so that the closure's colour is that of the surface alone
+  const auto volume = in.volume;
+  in.volume.thickness = 0.0;  // so that the closure's colour is that of the surface alone
   const ExactLighting lighting(light.albedos);
   const lanes::Closure<double> closure(in, ToLanes(point.view), lighting);
 
@@ -55,9 +55,9 @@ ExactEntry EntryAt(const ExactMaterial& material, const glm::dvec3& base_color, 
   entry.tint = FromLanes(closure.transmission.color);
   glm::dvec3 passing(1.0);
   if (source.Has(kVolume)) {
-    entry.absorption = FromLanes(in.transmission.absorption);
-    entry.thickness = thickness;
-    passing = FromLanes(closure.transmission.Passing(in.transmission.absorption, thickness));
+    entry.absorption = FromLanes(volume.absorption);
+    entry.thickness = volume.thickness;
+    passing = FromLanes(volume.Passing());
   }
   for (const PunctualLight& punctual : light.punctual) {
     const auto sample = lanes::SamplePunctual(punctual, ToLanes(point.position));

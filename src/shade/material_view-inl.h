@@ -169,6 +169,7 @@ class MaterialView {
     const Vec4<T> base = BaseColor(s, textures);
     const Source source{m_, s, textures};
     MaterialInputs<T> in = ReadInputs<T, kPossible>(source, base, m_.features);
+    in.footprint_alpha2 = s.footprint_alpha2;
     if constexpr ((kPossible & kIor) != 0) {
       if (m_.model == ShadingModel::SpecularGlossiness) SetSpecularGlossiness(source, in);
     }
@@ -193,6 +194,8 @@ class MaterialView {
     HWY_INLINE const Vec3<T>& Normal() const { return s.normal; }
     HWY_INLINE const Vec3<T>& InterpolatedNormal() const { return s.interpolated_normal; }
     HWY_INLINE const Vec4<T>& Tangent() const { return s.tangent; }
+    HWY_INLINE T FootprintAlpha2() const { return s.footprint_alpha2; }
+    HWY_INLINE T MetresPerUnit() const { return s.metres_per_unit; }
   };
 
   HWY_INLINE TextureReader<T>& ReaderOf(const Surface<T>& s, TextureReader<T>& own) const {

@@ -51,20 +51,6 @@ TEST(FilamentTerms, WrappedCosineKeepsTheEnergyOfTheCosine) {
   }
 }
 
-TEST(FilamentTerms, NormalsOfAPixelWidenTheHighlight) {
-  for (const double roughness : {0.045, 0.3, 0.9}) {
-    EXPECT_NEAR(terms::RoughnessOverPixel(roughness, 0.0, 0.15f, 0.2f), roughness, 1e-12);
-    double before = roughness;
-    for (const double squares : {0.01, 0.1, 0.5, 0.66}) {
-      const double wider = terms::RoughnessOverPixel(roughness, squares, 0.15f, 0.2f);
-      EXPECT_NEAR(std::pow(wider, 4.0), std::min(std::pow(roughness, 4.0) + 2.0 * 0.15 * squares, 1.0), 1e-7);
-      EXPECT_GE(wider, before);
-      before = wider;
-    }
-    EXPECT_EQ(terms::RoughnessOverPixel(roughness, 5.0, 0.15f, 0.2f), terms::RoughnessOverPixel(roughness, 50.0, 0.15f, 0.2f));
-  }
-}
-
 // --- Occlusion ------------------------------------------------------------------------------------------------------
 
 TEST(FilamentOcclusion, ChangesNothingWhereAllIsVisible) {

@@ -80,14 +80,14 @@ struct Filament : OwnModel<Filament> {
 
   // For materials that light passes through, or whose blending is more than alpha.
   template <class T, class Material, class Lighting>
-  static HWY_INLINE ShadedThrough<T> Through(const Surface<T>& surface, T metres_per_unit, const Material& material,
+  static HWY_INLINE ShadedThrough<T> Through(const Surface<T>& surface, const Material& material,
                                              const Lighting& lighting) {
     return material.Read(surface, [&](const auto& from, const Vec4<T>& base) HWY_ATTR {
       const FilamentScattering<T> s = Make<T>(from, base, surface.view, lighting);
       ShadedThrough<T> out{};
       out.own = s.Finish(AllLight(s, surface.position, lighting));
       if (s.refracts) {
-        const filament::Refraction<T> r = filament::RefractionAt(s, from, metres_per_unit);
+        const filament::Refraction<T> r = filament::RefractionAt(s, from, surface.metres_per_unit);
         out.tint = r.tint;
         for (int c = 0; c < 3; ++c) out.path[c] = r.path[c];
         out.spread = r.spread;

@@ -25,19 +25,16 @@ struct ShadedThrough {
   T spread{};  // TransmissionLobe::Spread()
 };
 
-// `metres_per_unit`: of the mesh, in which thickness is stated; 0: no medium begins here.
 template <class T, class Lighting>
-HWY_INLINE ShadedThrough<T> ShadeThrough(MaterialInputs<T> in, const Surface<T>& surface, T metres_per_unit,
+HWY_INLINE ShadedThrough<T> ShadeThrough(const MaterialInputs<T>& in, const Surface<T>& surface,
                                          const Lighting& lighting) {
-  const bool has_volume = (in.lobes & kVolume) != 0;
-  if (has_volume) in.transmission.thickness = Min(in.transmission.thickness * metres_per_unit, T(1e30f));
   const Closure<T> closure(in, surface.view, lighting);
   ShadedThrough<T> out{};
   out.own = {ShadeClosure(closure, in, surface.position, lighting), in.alpha_coverage};
   out.tint = closure.transmission.color;
-  out.spread = closure.transmission.Spread(in.transmission.thickness, in.transmission.ior.y);
-  if (!has_volume) return out;
-  const T thickness = in.transmission.thickness;
+  const T thickness = in.volume.thickness;
+  out.spread = closure.transmission.Spread(thickness, in.transmission.ior.y);
+  if ((in.lobes & kVolume) == 0) return out;
   const Vec3<T>& ior = in.transmission.ior;
   out.path[0] = RefractedPath(closure.at, ior.x, thickness);
   if ((in.lobes & kDispersion) != 0) {

@@ -217,11 +217,21 @@ class SurfaceReader {
       s.perceptual_roughness = Bounded(ReadParameter<T>(from_, p_.roughness, SlotOf(&Block::roughness)));
     }
     s.unclamped_roughness = s.perceptual_roughness;
+    s.perceptual_roughness = OverPixel(s.perceptual_roughness);
     if (from_.Has(kIridescence)) {
       const T thickness =
           ReadParameter<T>(from_, p_.iridescence_thickness, SlotOf(&Block::iridescence_thickness));
       const T factor = ReadParameter<T>(from_, p_.iridescence, SlotOf(&Block::iridescence));
       s.f0 = ThinFilm<T>({factor, T(p_.iridescence_ior), thickness}, s.at.n_dot_v).F0Over(s.f0);
+    }
+  }
+
+  // Widened by what the normal turns within the pixel.
+  HWY_INLINE T OverPixel(T perceptual_roughness) const {
+    if constexpr (requires { from_.FootprintAlpha2(); }) {
+      return WidenedRoughness(perceptual_roughness, from_.FootprintAlpha2());
+    } else {
+      return perceptual_roughness;
     }
   }
 
@@ -251,8 +261,8 @@ class SurfaceReader {
     const Vec3<T> normal = ReadParameter<T>(from_, p_.clear_coat_normal, SlotOf(&Block::clear_coat_normal));
     s.coat_at = {normal, s.at.view, Clamp(Dot(normal, s.at.view), T(kMinNDotV), one)};
     s.coat = Bounded(ReadParameter<T>(from_, p_.clear_coat, SlotOf(&Block::clear_coat)));
-    s.coat_roughness = Clamp(ReadParameter<T>(from_, p_.clear_coat_roughness, SlotOf(&Block::clear_coat_roughness)),
-                             T(kMinPerceptualRoughness), one);
+    const T roughness = ReadParameter<T>(from_, p_.clear_coat_roughness, SlotOf(&Block::clear_coat_roughness));
+    s.coat_roughness = Clamp(OverPixel(Bounded(roughness)), T(kMinPerceptualRoughness), one);
     s.coat_alpha = AlphaFromPerceptualRoughness(s.coat_roughness);
     const SpecularAlbedo<T> albedo = lighting.Dfg(s.coat_at.n_dot_v, s.coat_roughness);
     s.coat_albedo = albedo.a + albedo.b;

@@ -117,16 +117,6 @@ struct FilamentAnisotropy {
   }
 };
 
-// Toksvig's and Kaplanyan's widening of the highlight by the variance of normals within a pixel (Tokuyoshi and
-// Kaplanyan, 2019, Improved Geometric Specular Antialiasing). `squares`: of the normal's derivatives over one pixel to
-// the right and down, summed.
-template <class T>
-HWY_INLINE T RoughnessOverPixel(T perceptual_roughness, T squares, float variance, float threshold) {
-  const T alpha = AlphaFromPerceptualRoughness(perceptual_roughness);
-  const T kernel = Min(T(2.0f) * T(variance) * squares, T(threshold));
-  return Sqrt(Sqrt(Clamp(alpha * alpha + kernel, T(0.0f), T(1.0f))));
-}
-
 }  // namespace filament
 }  // namespace HWY_NAMESPACE
 }  // namespace facet
