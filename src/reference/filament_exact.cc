@@ -46,8 +46,7 @@ ExactEntry FilamentEntryAt(const ExactMaterial& material, const glm::dvec4& base
     const auto& absorption = s.block->absorption;
     entry.absorption =
         FromLanes(lanes::ReadParameter<double>(source, absorption, SlotOf(&FilamentParameters::absorption)));
-    entry.thickness =
-        lanes::ReadParameter<double>(source, s.block->thickness, SlotOf(&FilamentParameters::thickness));
+    entry.thickness = lanes::ReadParameter<double>(source, s.block->thickness, SlotOf(&FilamentParameters::thickness));
   }
   return entry;
 }

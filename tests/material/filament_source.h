@@ -22,7 +22,9 @@ struct Source {
 
   bool Has(MaterialFeatures feature) const { return (features & feature) != 0; }
   template <class Block>
-  const Block& Parameters() const { return parameters; }
+  const Block& Parameters() const {
+    return parameters;
+  }
   template <int kChannels>
   Vec4<T> Read(Slot) const {
     return {T(1), T(1), T(1), T(1)};

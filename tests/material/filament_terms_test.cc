@@ -74,9 +74,9 @@ TEST(FilamentOcclusion, ChangesNothingWhereAllIsVisible) {
 
 TEST(FilamentOcclusion, CapsShareWhatGeometrySays) {
   const double a = std::cos(0.4), b = std::cos(0.9);
-  EXPECT_NEAR(terms::SharedByCaps(a, b, 1.0), 1.0 - a, 1e-12);              // one within the other
-  EXPECT_NEAR(terms::SharedByCaps(a, b, std::cos(0.49)), 1.0 - a, 1e-12);   // just within
-  EXPECT_EQ(terms::SharedByCaps(a, b, std::cos(1.31)), 0.0);                // just outside
+  EXPECT_NEAR(terms::SharedByCaps(a, b, 1.0), 1.0 - a, 1e-12);             // one within the other
+  EXPECT_NEAR(terms::SharedByCaps(a, b, std::cos(0.49)), 1.0 - a, 1e-12);  // just within
+  EXPECT_EQ(terms::SharedByCaps(a, b, std::cos(1.31)), 0.0);               // just outside
   // Half-way between it is half of the smaller: the smooth step is odd about its middle.
   EXPECT_NEAR(terms::SharedByCaps(a, b, std::cos(0.9)), 0.5 * (1.0 - a), 1e-9);
 }
@@ -140,7 +140,8 @@ struct Blended {
 };
 Blended Finished(const FilamentParameters& p, const Vec3<double>& radiance, bool blends) {
   const LightingData tables = Tables();
-  const auto shaded = Scattering<double>(p, {0, 0, 1}, tables, blends ? MaterialFeatures{kAlphaBlend} : 0).Finish(radiance);
+  const auto shaded =
+      Scattering<double>(p, {0, 0, 1}, tables, blends ? MaterialFeatures{kAlphaBlend} : 0).Finish(radiance);
   return {{shaded.color.x, shaded.color.y, shaded.color.z}, shaded.alpha};
 }
 
@@ -283,7 +284,9 @@ TEST(FilamentRefraction, DispersesByAbbesNumberAndScattersLessWhereIndicesAreEqu
   p.dispersion = 1.0f;
   p.roughness.value = 0.6f;
   const Vec3<double> view{0.8, 0.0, 0.6};
-  const auto at = [&] { return terms::RefractionAt<double>(Scattering<double>(p, view, tables), Source<double>(p), 1.0); };
+  const auto at = [&] {
+    return terms::RefractionAt<double>(Scattering<double>(p, view, tables), Source<double>(p), 1.0);
+  };
   const auto r = at();
   EXPECT_LT(r.path[0].z, 0.0);
   EXPECT_LT(r.path[2].z, r.path[0].z);  // blue is refracted more: deeper

@@ -144,8 +144,8 @@ TEST_P(DirectLight, IsThatOfTheFormulas) {
     const FilamentParameters block = BlockOf(in, GetParam());
     const glm::dvec3 expected = Expected(in, GetParam(), v, l, lighting);
     const auto got = FromVec(Scattering<double>(block, ToVec<double>(v), tables).Direct(ToVec<double>(l), lighting));
-    const auto single = FromVec(Scattering<float>(block, ToVec<float>(v), tables)
-                                    .Direct(ToVec<float>(l), lanes::LightingView<float>(tables)));
+    const auto single = FromVec(
+        Scattering<float>(block, ToVec<float>(v), tables).Direct(ToVec<float>(l), lanes::LightingView<float>(tables)));
     for (int c = 0; c < 3; ++c) {
       // Constants of the project are floats: relative errors of 6e-8 each.
       EXPECT_NEAR(got[c], expected[c], 2e-6 * std::fabs(expected[c]) + 1e-9) << i << " " << c;
@@ -211,8 +211,7 @@ TEST(FilamentFurnace, OfLayersOfClothAndOfSubsurfaceIsClosedForm) {
     const oracle::Pixel p = oracle::PixelOf(in);
     const auto [a, b] = lighting.Dfg(z, p.roughness);
     const glm::dvec3 e = p.f0 * a + p.f90 * b;
-    glm::dvec3 expected = e * oracle::Compensation(p, {b, a + b}) +
-                          p.diffuse * (1.0 - e) * (1.0 - in.transmission);
+    glm::dvec3 expected = e * oracle::Compensation(p, {b, a + b}) + p.diffuse * (1.0 - e) * (1.0 - in.transmission);
     if (in.hasSheen) {
       const double cloth = std::min(lighting.ClothAlbedo(z, std::max(in.sheenRoughness, double(0.07f))), 1.0);
       expected = expected * (1.0 - oracle::Max3(in.sheenColor) * cloth) + in.sheenColor * cloth;
@@ -240,10 +239,12 @@ TEST(FilamentFurnace, OfLayersOfClothAndOfSubsurfaceIsClosedForm) {
     const glm::dvec3 r = q.f0 * qa + q.f90 * qb;
     const glm::dvec3 tint = skin.hasSubsurfaceColor ? skin.subsurfaceColor : glm::dvec3(1.0);
     const glm::dvec3 passed = tint * ((1.0 - skin.thickness) / kPi);
-    const auto soft = FromVec(Scattering<double>(BlockOf(skin, Shading::Subsurface), view, tables).Environment(lighting));
+    const auto soft =
+        FromVec(Scattering<double>(BlockOf(skin, Shading::Subsurface), view, tables).Environment(lighting));
     for (int c = 0; c < 3; ++c) {
       EXPECT_NEAR(soft[c], r[c] * oracle::Compensation(q, {qb, qa + qb})[c] + q.diffuse[c] * (1.0 - r[c]) + passed[c],
-                  2e-6) << i;
+                  2e-6)
+          << i;
     }
   }
 }
@@ -309,14 +310,15 @@ TEST(FilamentFibres, AreNormalisedAndTheirAlbedoIsThatOfTheTable) {
         for (int k = 0; k < kAzimuth; ++k) {
           const double w = (k + 0.5) / kAzimuth, phi = kPi * (1.0 - w * w);
           const glm::dvec3 l{sine * std::cos(phi), sine * std::sin(phi), c}, h = glm::normalize(v + l);
-          reflected += oracle::D_Charlie(h.z, roughness * roughness) * oracle::V_Neubelt(z, c) * c * (2.0 * t / kPolar) *
-                       (4.0 * kPi * w / kAzimuth);
+          reflected += oracle::D_Charlie(h.z, roughness * roughness) * oracle::V_Neubelt(z, c) * c *
+                       (2.0 * t / kPolar) * (4.0 * kPi * w / kAzimuth);
         }
       }
       EXPECT_NEAR(IntegrateClothAlbedo(z, roughness), reflected, 2e-4) << roughness << " " << z;
       if (reflected > 1.0) std::printf("roughness %.2f, n.v %.3f: albedo %.3f\n", roughness, z, reflected);
       const LightingData tables = Tables();
-      EXPECT_NEAR(lanes::LightingView<double>(tables).ClothAlbedo(z, roughness), reflected, 2e-3 * std::max(reflected, 1.0));
+      EXPECT_NEAR(lanes::LightingView<double>(tables).ClothAlbedo(z, roughness), reflected,
+                  2e-3 * std::max(reflected, 1.0));
     }
   }
 }
@@ -352,7 +354,7 @@ TEST(Filament, IsReciprocalButForWhatTheViewScales) {
 TEST(Filament, IsFiniteAtExtremes) {
   const LightingData tables = Tables();
   const Uniform<float> lighting(tables);
-  const Vec3<float> directions[] = {{0, 0, 1}, {1, 0, 0}, {-1, 0, 0}, {0.8f, 0, 0.6f}, {-0.8f, 0, 0.6f},
+  const Vec3<float> directions[] = {{0, 0, 1},  {1, 0, 0},        {-1, 0, 0},     {0.8f, 0, 0.6f}, {-0.8f, 0, 0.6f},
                                     {0, 0, -1}, {0.8f, 0, -0.6f}, {-1, 0, 1e-7f}, {0, 0, 0}};
   int count = 0;
   for (int model = 0; model < 5; ++model) {

@@ -53,9 +53,7 @@ struct FilamentScattering : filament::FilamentSurface<T> {
   }
 
   // The surface with all its light: blended with the colour that comes after lighting, and in straight alpha.
-  HWY_INLINE Shaded<T> Finish(const Vec3<T>& radiance) const {
-    return filament::Finish<T>(*this, after, radiance);
-  }
+  HWY_INLINE Shaded<T> Finish(const Vec3<T>& radiance) const { return filament::Finish<T>(*this, after, radiance); }
 
   template <class Visit>
   HWY_INLINE void ForEachShape(const Visit& visit) const {

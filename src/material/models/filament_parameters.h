@@ -133,7 +133,8 @@ inline MaterialFeatures FeaturesOf(const FilamentParameters& p) {
   set(p.anisotropy.value != 0.0f, kAnisotropy | kTangents);
   set(p.iridescence.value != 0.0f, kIridescence);
   set(p.ior != 0.0f, kIor);
-  set(p.specular_factor.value != 1.0f || p.specular_color_factor.value != glm::vec3(1.0f), kSpecular);
+  set(p.specular_factor != Textured<float>{1.0f} || p.specular_color_factor != Textured<glm::vec3>{glm::vec3(1.0f)},
+      kSpecular);
   const bool solid = p.refraction_type == FilamentParameters::RefractionType::Solid;
   if (Refracts(p)) {
     features |= kTransmission;

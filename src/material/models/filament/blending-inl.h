@@ -1,5 +1,6 @@
 // What Filament does with a surface after it is lit: the post-lighting colour, and blending. (Filament Materials Guide,
-// "blending" and "postLightingBlending".) Filament blends premultiplied colours; facet's compositor takes straight ones.
+// "blending" and "postLightingBlending".) Filament blends premultiplied colours; facet's compositor takes straight
+// ones.
 
 #if defined(FACET_MATERIAL_MODELS_FILAMENT_BLENDING_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef FACET_MATERIAL_MODELS_FILAMENT_BLENDING_INL_H_

@@ -18,10 +18,9 @@ namespace filament {
 // Single scattering of the microfacets with their Fresnel term.
 template <class T>
 HWY_INLINE Vec3<T> DirectSpecular(const FilamentSurface<T>& s, const Vec3<T>& light, const Incidence<T>& from) {
-  const T single = s.is_anisotropic
-                       ? s.anisotropy.Single(s.at, light, from)
-                       : DistributionGgx(s.at.normal, from.half, s.alpha) *
-                             VisibilitySmith(from.n_dot_l, s.at.n_dot_v, s.alpha);
+  const T single = s.is_anisotropic ? s.anisotropy.Single(s.at, light, from)
+                                    : DistributionGgx(s.at.normal, from.half, s.alpha) *
+                                          VisibilitySmith(from.n_dot_l, s.at.n_dot_v, s.alpha);
   const T w = SchlickWeight(from.v_dot_h);
   const T rest = T(1.0f) - w, grazing = s.f90 * w;
   return (s.f0 * rest + Grey(grazing)) * single;
@@ -51,11 +50,10 @@ template <class T>
 HWY_NOINLINE Vec3<T> DirectLit(const FilamentSurface<T>& s, const Vec3<T>& light) {
   const T n_dot_l = Dot(s.at.normal, light);
   const Incidence<T> from = IncidenceFrom(s.at, light);
-  Vec3<T> brdf = s.diffuse_color * (T(kInversePi) * (T(1.0f) - s.transmission)) +
-                 DirectSpecular(s, light, from) * s.compensation;
+  Vec3<T> brdf =
+      s.diffuse_color * (T(kInversePi) * (T(1.0f) - s.transmission)) + DirectSpecular(s, light, from) * s.compensation;
   if (s.has_sheen) {
-    brdf = brdf * s.SheenLeft() +
-           s.sheen_color * DirectFibres(s, from);
+    brdf = brdf * s.SheenLeft() + s.sheen_color * DirectFibres(s, from);
   }
   Vec3<T> sum = brdf * from.n_dot_l;
   if (s.has_coat) {
@@ -71,8 +69,7 @@ HWY_NOINLINE Vec3<T> DirectCloth(const FilamentSurface<T>& s, const Vec3<T>& lig
   const T fibres = DirectFibres(s, from);
   Vec3<T> diffuse = s.diffuse_color * T(kInversePi);
   if (s.has_subsurface) {
-    diffuse = diffuse * WrappedCosine(Dot(s.at.normal, light), 0.5f) *
-              Bounded(s.subsurface_color + Grey(from.n_dot_l));
+    diffuse = diffuse * WrappedCosine(Dot(s.at.normal, light), 0.5f) * Bounded(s.subsurface_color + Grey(from.n_dot_l));
   } else {
     diffuse = diffuse * from.n_dot_l;
   }
@@ -83,8 +80,8 @@ template <class T>
 HWY_NOINLINE Vec3<T> DirectSubsurface(const FilamentSurface<T>& s, const Vec3<T>& light) {
   const T one(1.0f);
   const Incidence<T> from = IncidenceFrom(s.at, light);
-  const Vec3<T> specular = Select<T>(from.n_dot_l > T(0.0f), DirectSpecular(s, light, from) * s.compensation,
-                                     Vec3<T>{});
+  const Vec3<T> specular =
+      Select<T>(from.n_dot_l > T(0.0f), DirectSpecular(s, light, from) * s.compensation, Vec3<T>{});
   const Vec3<T> reflected = (s.diffuse_color * T(kInversePi) + specular) * from.n_dot_l;
   const T ahead = Clamp(-Dot(s.at.view, light), T(0.0f), one);
   const T forward = Exp2(ahead * s.subsurface_power - s.subsurface_power);

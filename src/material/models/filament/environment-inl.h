@@ -34,7 +34,8 @@ HWY_INLINE EnvironmentFactors<T> FactorsOf(const FilamentSurface<T>& s) {
   const FilamentParameters& p = *s.block;
   const T one(1.0f);
   // Filament does not apply it to surfaces that are blended.
-  const Occlusion kind = s.is_occluded && s.blending == Blending::Opaque ? p.specular_ambient_occlusion : Occlusion::None;
+  const Occlusion kind =
+      s.is_occluded && s.blending == Blending::Opaque ? p.specular_ambient_occlusion : Occlusion::None;
   const auto specular_occlusion = [&](T n_dot_v, T alpha) HWY_ATTR {
     switch (kind) {
       case Occlusion::None: break;
@@ -46,7 +47,8 @@ HWY_INLINE EnvironmentFactors<T> FactorsOf(const FilamentSurface<T>& s) {
   EnvironmentFactors<T> f;
   const T specular = specular_occlusion(s.at.n_dot_v, s.alpha);
   const bool bounces = s.is_occluded && p.multi_bounce_ambient_occlusion;
-  f.specular = s.compensation * (bounces && kind != Occlusion::None ? MultiBounceOcclusion(specular, s.f0) : Grey(specular));
+  f.specular =
+      s.compensation * (bounces && kind != Occlusion::None ? MultiBounceOcclusion(specular, s.f0) : Grey(specular));
   const Vec3<T> dims = bounces ? MultiBounceOcclusion(s.occlusion, s.diffuse_color) : Grey(s.occlusion);
   f.diffuse = s.diffuse_color * (Grey(one) - s.reflected);
   if (s.has_subsurface && s.shading == Shading::Cloth) {

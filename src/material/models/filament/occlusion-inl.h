@@ -16,16 +16,16 @@ namespace facet {
 namespace HWY_NAMESPACE {
 namespace filament {
 
-// The share of a reflection that is not occluded, for microfacets that see the share `visibility` of their surroundings.
-// Lagarde and de Rousiers, 2014, Moving Frostbite to Physically Based Rendering, section 4.10.2.
+// The share of a reflection that is not occluded, for microfacets that see the share `visibility` of their
+// surroundings. Lagarde and de Rousiers, 2014, Moving Frostbite to Physically Based Rendering, section 4.10.2.
 template <class T>
 HWY_INLINE T SpecularOcclusion(T n_dot_v, T visibility, T alpha) {
   const T power = Pow(Max(n_dot_v + visibility, T(0.0f)), Exp2(T(-16.0f) * alpha - T(1.0f)));
   return Clamp(power - T(1.0f) + visibility, T(0.0f), T(1.0f));
 }
 
-// The solid angle that two spherical caps share, divided by 2 pi. Oat and Sander, 2007, Ambient Aperture Lighting: exact
-// where one lies within the other or outside of it, and a smooth step between.
+// The solid angle that two spherical caps share, divided by 2 pi. Oat and Sander, 2007, Ambient Aperture Lighting:
+// exact where one lies within the other or outside of it, and a smooth step between.
 template <class T>
 HWY_INLINE T SharedByCaps(T cosine_a, T cosine_b, T cosine_between) {
   const T zero(0.0f), one(1.0f);
@@ -39,9 +39,9 @@ HWY_INLINE T SharedByCaps(T cosine_a, T cosine_b, T cosine_between) {
   return Select(between <= difference, smaller, partial);
 }
 
-// The same from the cone about the bent normal that is not occluded and the cone of the reflection (Jimenez et al., 2016,
-// Practical Realtime Strategies for Accurate Indirect Occlusion, section 5.2). It fades out on smooth surfaces, whose
-// cone is so narrow that it would remove whole reflections.
+// The same from the cone about the bent normal that is not occluded and the cone of the reflection (Jimenez et al.,
+// 2016, Practical Realtime Strategies for Accurate Indirect Occlusion, section 5.2). It fades out on smooth surfaces,
+// whose cone is so narrow that it would remove whole reflections.
 template <class T>
 HWY_INLINE T SpecularOcclusionOfCones(const Vec3<T>& bent_normal, const Vec3<T>& reflected, T visibility, T alpha) {
   const T visible = Sqrt(Clamp(T(1.0f) - visibility, T(0.0f), T(1.0f)));

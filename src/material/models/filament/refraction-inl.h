@@ -10,6 +10,7 @@
 #endif
 
 #include "material/lobes/transmission-inl.h"
+#include "material/lobes/volume-inl.h"
 #include "material/models/filament/surface-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -69,7 +70,7 @@ HWY_INLINE Refraction<T> RefractionAt(const FilamentSurface<T>& s, const Source&
     distance = Sqrt(Dot(middle, middle));
   }
   r.tint = Bounded(Grey(one) - reflected) * s.diffuse_color * s.transmission *
-           TransmissionLobe<T>::Passing(absorption, distance);
+           VolumeInputs<T>{distance, absorption}.Passing();
   TransmissionLobe<T> lobe;
   const T remapped = s.unclamped_roughness * (one - Bounded(T(3.0f) / ior - T(2.0f)));
   lobe.unclamped_alpha = r.alpha = AlphaFromPerceptualRoughness(remapped);

@@ -59,17 +59,17 @@ struct FilamentSurface {
        is_occluded = false;
 
   SurfaceView<T> at;
-  Vec3<T> mirror;           // unit, of the view
-  Vec3<T> diffuse_normal;   // along which diffuse light is looked up
-  Vec3<T> base_color;       // bounded to 1; multiplied by the coverage where blending says so
+  Vec3<T> mirror;          // unit, of the view
+  Vec3<T> diffuse_normal;  // along which diffuse light is looked up
+  Vec3<T> base_color;      // bounded to 1; multiplied by the coverage where blending says so
   T coverage{};
   Vec3<T> diffuse_color, f0;
   T f90{};
   T unclamped_roughness{};  // perceptual, before the clear coat
   T perceptual_roughness{}, alpha{};
-  SpecularAlbedo<T> albedo;   // of the microfacets
-  Vec3<T> reflected;          // E: of the microfacets, or of cloth's fibres
-  Vec3<T> compensation;       // of the energy that single scattering loses
+  SpecularAlbedo<T> albedo;  // of the microfacets
+  Vec3<T> reflected;         // E: of the microfacets, or of cloth's fibres
+  Vec3<T> compensation;      // of the energy that single scattering loses
   FilamentAnisotropy<T> anisotropy;
   Vec3<T> sheen_color;
   FibreRoughness<T> sheen;
@@ -77,7 +77,7 @@ struct FilamentSurface {
   T fibre_scale{};   // 1 / max(1, E), so that fibres reflect no more than they receive
   SurfaceView<T> coat_at;
   T coat{}, coat_roughness{}, coat_alpha{}, coat_albedo{};  // of F = 1
-  T occlusion{};            // the share that is visible
+  T occlusion{};                                            // the share that is visible
   Vec3<T> subsurface_color;
   T subsurface_power{}, thickness{};
   T transmission{};
@@ -204,7 +204,7 @@ class SurfaceReader {
       const T metallic = Bounded(ReadParameter<T>(from_, p_.metallic, SlotOf(&Block::metallic)));
       const T dielectric = one - metallic;
       Vec3<T> f0 = Grey(DielectricF0());
-      const bool scaled = from_.Has(kSpecular);
+      const bool scaled = ScalesReflectance();
       T f90 = one;
       if (scaled) {
         f90 = Bounded(ReadParameter<T>(from_, p_.specular_factor, SlotOf(&Block::specular_factor)));
@@ -218,12 +218,17 @@ class SurfaceReader {
     }
     s.unclamped_roughness = s.perceptual_roughness;
     s.perceptual_roughness = OverPixel(s.perceptual_roughness);
-    if (from_.Has(kIridescence)) {
-      const T thickness =
-          ReadParameter<T>(from_, p_.iridescence_thickness, SlotOf(&Block::iridescence_thickness));
+    if (p_.iridescence.value != 0.0f) {
+      const T thickness = ReadParameter<T>(from_, p_.iridescence_thickness, SlotOf(&Block::iridescence_thickness));
       const T factor = ReadParameter<T>(from_, p_.iridescence, SlotOf(&Block::iridescence));
       s.f0 = ThinFilm<T>({factor, T(p_.iridescence_ior), thickness}, s.at.n_dot_v).F0Over(s.f0);
     }
+  }
+
+  // Whether it has specular factors, which state its F90, too.
+  HWY_INLINE bool ScalesReflectance() const {
+    return p_.specular_factor.value != 1.0f || p_.specular_color_factor.value != glm::vec3(1.0f) ||
+           from_.Has(BitOf(SlotOf(&Block::specular_factor)) | BitOf(SlotOf(&Block::specular_color_factor)));
   }
 
   // Widened by what the normal turns within the pixel.
@@ -256,7 +261,7 @@ class SurfaceReader {
     if (s.refracts) {
       s.transmission = Bounded(ReadParameter<T>(from_, p_.transmission, SlotOf(&Block::transmission)));
     }
-    s.has_coat = from_.Has(kClearcoat);
+    s.has_coat = p_.clear_coat.value != 0.0f;
     if (!s.has_coat) return;
     const Vec3<T> normal = ReadParameter<T>(from_, p_.clear_coat_normal, SlotOf(&Block::clear_coat_normal));
     s.coat_at = {normal, s.at.view, Clamp(Dot(normal, s.at.view), T(kMinNDotV), one)};
@@ -267,8 +272,7 @@ class SurfaceReader {
     const SpecularAlbedo<T> albedo = lighting.Dfg(s.coat_at.n_dot_v, s.coat_roughness);
     s.coat_albedo = albedo.a + albedo.b;
     if (p_.clear_coat_ior_change) s.f0 = Mix(s.f0, F0UnderCoat(s.f0), s.coat);
-    s.perceptual_roughness =
-        Mix(s.perceptual_roughness, Max(s.perceptual_roughness, s.coat_roughness), s.coat);
+    s.perceptual_roughness = Mix(s.perceptual_roughness, Max(s.perceptual_roughness, s.coat_roughness), s.coat);
   }
 
   HWY_INLINE FilamentAnisotropy<T> ReadAnisotropy(const FilamentSurface<T>& s) const {
@@ -285,12 +289,11 @@ class SurfaceReader {
     const Vec3<T> world = along * direction.x + across * direction.y + from_.InterpolatedNormal() * direction.z;
     const T zero(0.0f), one(1.0f);
     const auto is_steep = Abs(normal.y) < T(0.9f);
-    const Vec3<T> other = NormalizeOr(
-        Cross(Select<T>(is_steep, Vec3<T>{zero, one, zero}, Vec3<T>{one, zero, zero}), normal),
-        Vec3<T>{one, zero, zero});
+    const Vec3<T> other =
+        NormalizeOr(Cross(Select<T>(is_steep, Vec3<T>{zero, one, zero}, Vec3<T>{one, zero, zero}), normal),
+                    Vec3<T>{one, zero, zero});
     const Vec3<T> tangent = NormalizeOr(world - normal * Dot(normal, world), other);
-    const T strength =
-        Clamp(ReadParameter<T>(from_, p_.anisotropy, SlotOf(&Block::anisotropy)), T(-1.0f), one);
+    const T strength = Clamp(ReadParameter<T>(from_, p_.anisotropy, SlotOf(&Block::anisotropy)), T(-1.0f), one);
     return FilamentAnisotropy<T>(tangent, Cross(normal, tangent), strength, s.alpha);
   }
 

@@ -1,5 +1,6 @@
-// The terms of Filament's shading models that other models do not have. Source of all: Guy and Agopian, 2018, Physically
-// Based Rendering in Filament (4.4 to 4.12), and the shaders of Filament. Where a term is another author's, he is named.
+// The terms of Filament's shading models that other models do not have. Source of all: Guy and Agopian, 2018,
+// Physically Based Rendering in Filament (4.4 to 4.12), and the shaders of Filament. Where a term is another author's,
+// he is named.
 
 #if defined(FACET_MATERIAL_MODELS_FILAMENT_TERMS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef FACET_MATERIAL_MODELS_FILAMENT_TERMS_INL_H_
@@ -34,8 +35,8 @@ HWY_INLINE T IndexOfF0(T f0) {
   return (T(1.0f) + root) / (T(1.0f) - root);
 }
 
-// F0 of a surface that has the index of 1.5 above it instead of air: a cubic fit to the exact change of index. It is off
-// by 0.029 at most, at F0 = 0, where it is bounded to 0.
+// F0 of a surface that has the index of 1.5 above it instead of air: a cubic fit to the exact change of index. It is
+// off by 0.029 at most, at F0 = 0, where it is bounded to 0.
 template <class T>
 HWY_INLINE Vec3<T> F0UnderCoat(const Vec3<T>& f0) {
   const auto of = [](T f) HWY_ATTR {
@@ -62,8 +63,8 @@ HWY_INLINE T VisibilityNeubelt(T n_dot_l, T n_dot_v) {
   return T(0.25f) / Max(n_dot_l + n_dot_v - n_dot_l * n_dot_v, T(1e-5f));
 }
 
-// Diffuse reflection that reaches around the terminator by `w`, without its 1 / pi; it replaces the cosine. Its integral
-// over all directions is that of the cosine.
+// Diffuse reflection that reaches around the terminator by `w`, without its 1 / pi; it replaces the cosine. Its
+// integral over all directions is that of the cosine.
 template <class T>
 HWY_INLINE T WrappedCosine(T n_dot_l, float w) {
   return Clamp((n_dot_l + T(w)) * T(1.0f / ((1.0f + w) * (1.0f + w))), T(0.0f), T(1.0f));
@@ -97,7 +98,8 @@ struct FilamentAnisotropy {
   HWY_INLINE T Single(const SurfaceView<T>& at, const Vec3<T>& light, const Incidence<T>& from) const {
     const T distribution = DistributionGgxAnisotropic(Dot(tangent, from.half), Dot(bitangent, from.half),
                                                       Max(Dot(at.normal, from.half), T(0.0f)), alpha_t, alpha_b);
-    const T from_view = from.n_dot_l * Length(at.view, at.n_dot_v), from_light = at.n_dot_v * Length(light, from.n_dot_l);
+    const T from_view = from.n_dot_l * Length(at.view, at.n_dot_v),
+            from_light = at.n_dot_v * Length(light, from.n_dot_l);
     return distribution * T(0.5f) / (from_view + from_light);
   }
 
