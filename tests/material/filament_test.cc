@@ -197,6 +197,34 @@ TEST(FilamentFurnace, GainsOnlyTheCompensationOfDielectrics) {
   std::printf("most gained: %.5f\n", most);
 }
 
+// Under punctual lights from everywhere: the diffuse base is not dimmed by what is reflected above it, so that a white
+// dielectric reflects its E, compensated, more than it receives; a metal reflects all.
+TEST(FilamentFurnace, OfPunctualLightGainsTheReflectionOfDielectrics) {
+  const LightingData tables = Tables();
+  const lanes::LightingView<double> lighting(tables);
+  for (const float roughness : {0.4f, 0.7f, 1.0f}) {
+    for (const double n_dot_v : {0.1, 0.5, 1.0}) {
+      for (const float metallic : {0.0f, 1.0f}) {
+        const auto s = Scattering<double>(White(metallic, roughness), ViewAt(n_dot_v), tables);
+        double sum = 0.0;
+        constexpr int kPolar = 400, kAzimuth = 200;
+        for (int j = 0; j < kPolar; ++j) {
+          const double cosine = (j + 0.5) / kPolar, sine = std::sqrt(1.0 - cosine * cosine);
+          for (int k = 0; k < kAzimuth; ++k) {
+            const double phi = kPi * (k + 0.5) / kAzimuth;
+            sum += s.Direct({sine * std::cos(phi), sine * std::sin(phi), cosine}, lighting).y;
+          }
+        }
+        sum *= 2.0 * kPi / (kPolar * kAzimuth);
+        const auto [a, b] = lighting.Dfg(n_dot_v, double(roughness));
+        const double f0 = metallic > 0.5f ? 1.0 : 0.04;
+        const double expected = (1.0 - double(metallic)) + (f0 * a + b) * (1.0 + f0 * (1.0 / (a + b) - 1.0));
+        EXPECT_NEAR(sum, expected, 0.003) << roughness << " " << n_dot_v << " " << metallic;
+      }
+    }
+  }
+}
+
 // Each layer's own share: coat Fc, then sheen, then the base.
 TEST(FilamentFurnace, OfLayersOfClothAndOfSubsurfaceIsClosedForm) {
   const LightingData tables = Tables();
