@@ -8,6 +8,7 @@ struct AlbedoTables {
   bool sheen = false;            // SheenTable
   bool anisotropic_dfg = false;  // AnisotropicDfgTable
   bool schlick_dfg[2] = {};      // SharedSchlickDfgTable() of either LectureAlpha
+  bool cloth = false;            // SheenTable of Filament's fibres
 };
 
 }  // namespace facet

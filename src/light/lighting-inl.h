@@ -195,6 +195,10 @@ class LightingView {
   HWY_INLINE T SheenAlbedo(T n_dot_v, T perceptual_roughness) const {
     return LookupSheen(*data_->sheen, n_dot_v, perceptual_roughness);
   }
+  // The same of Filament's fibres.
+  HWY_INLINE T ClothAlbedo(T n_dot_v, T perceptual_roughness) const {
+    return LookupSheen(*data_->cloth, n_dot_v, perceptual_roughness);
+  }
 
  private:
   HWY_INLINE Vec3<T> ToEnvironment(Vec3<T> d) const {

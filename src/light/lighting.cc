@@ -12,6 +12,7 @@ LightingData MakeLightingData(const std::vector<PunctualLight>& lights, const En
   data.environment = environment;
   data.dfg = &SharedDfgTable();
   if (tables.sheen) data.sheen = &SharedSheenTable();
+  if (tables.cloth) data.cloth = &SharedClothTable();
   if (tables.anisotropic_dfg) data.anisotropic_dfg = &SharedAnisotropicDfgTable();
   for (const LectureAlpha alpha : {LectureAlpha::RoughnessSquared, LectureAlpha::Roughness}) {
     const auto i = static_cast<std::size_t>(alpha);

@@ -18,6 +18,7 @@ struct SheenColumn {
   Number n_dot_v;
   Number z[kPolar], z_weight[kPolar], azimuth_weight[kAzimuth];
   Number log2_sin2[kPolar * kAzimuth];  // of sin(theta_h)^2
+  bool is_cloth;                        // of Filament's fibres
   const Number* roughness;              // SheenTable::kRows of them for lanes, else one
   Number* albedo;                       // E for each
 };
@@ -46,15 +47,34 @@ HWY_INLINE T IntegrateSheen(const SheenColumn<Number>& column, T roughness) {
   return sum / (T(4.0f) * n_dot_v);
 }
 
+// The same of Filament's fibres: D of Charlie, V of Neubelt.
+template <class T, class Number>
+HWY_INLINE T IntegrateCloth(const SheenColumn<Number>& column, T roughness) {
+  const T inverse_alpha = T(1.0f) / AlphaFromPerceptualRoughness(roughness), n_dot_v(column.n_dot_v);
+  T sum = T(0.0f);
+  for (int i = 0; i < column.kPolar; ++i) {
+    T ring = T(0.0f);
+    for (int j = 0; j < column.kAzimuth; ++j) {
+      const T log2_sin2(column.log2_sin2[i * column.kAzimuth + j]);
+      ring += DistributionCharlieOfLog2(log2_sin2, inverse_alpha) * T(column.azimuth_weight[j]);
+    }
+    const T z(column.z[i]);
+    sum += ring * T(column.z_weight[i]) * z / (z + n_dot_v - z * n_dot_v);
+  }
+  return sum * T(0.25f);
+}
+
 void IntegrateSheenColumn(const SheenColumn<float>& column) {
   static_assert(SheenTable::kRows % kMaxLanes == 0);
   for (int row = 0; row < SheenTable::kRows; row += static_cast<int>(LaneCount())) {
-    Store(IntegrateSheen(column, LoadFloat(column.roughness + row)), column.albedo + row);
+    const Float roughness = LoadFloat(column.roughness + row);
+    Store(column.is_cloth ? IntegrateCloth(column, roughness) : IntegrateSheen(column, roughness), column.albedo + row);
   }
 }
 
 void IntegrateSheenPoint(const SheenColumn<double>& column) {
-  *column.albedo = IntegrateSheen(column, *column.roughness);
+  *column.albedo =
+      column.is_cloth ? IntegrateCloth(column, *column.roughness) : IntegrateSheen(column, *column.roughness);
 }
 
 static_assert(SheenTable::kFirstRow * SheenTable::kFirstRow * SheenTable::kFirstRow * SheenTable::kFirstRow <=
@@ -93,9 +113,10 @@ Node SmoothStep(int i, int count) {
 // sin(theta_h)^2 = q / (q + (n_dot_v + z)^2), with q the square of the length of view + light along the surface, which
 // is computed without cancellation.
 template <class Number>
-SheenColumn<Number> MakeColumn(double n_dot_v, const Number* roughness, Number* albedo) {
+SheenColumn<Number> MakeColumn(bool is_cloth, double n_dot_v, const Number* roughness, Number* albedo) {
   SheenColumn<Number> column{};
   column.n_dot_v = static_cast<Number>(n_dot_v);
+  column.is_cloth = is_cloth;
   column.roughness = roughness;
   column.albedo = albedo;
   double cosine_plus_one[SheenColumn<Number>::kAzimuth];
@@ -127,11 +148,18 @@ double Spaced(float first, int i, int count) { return double(first) + (1.0 - dou
 
 double IntegrateSheenAlbedo(double n_dot_v, double perceptual_roughness) {
   double albedo = 0.0;
-  FACET_DISPATCH(IntegrateSheenPoint)(MakeColumn(n_dot_v, &perceptual_roughness, &albedo));
+  FACET_DISPATCH(IntegrateSheenPoint)(MakeColumn(false, n_dot_v, &perceptual_roughness, &albedo));
+  return albedo;
+}
+double IntegrateClothAlbedo(double n_dot_v, double perceptual_roughness) {
+  double albedo = 0.0;
+  FACET_DISPATCH(IntegrateSheenPoint)(MakeColumn(true, n_dot_v, &perceptual_roughness, &albedo));
   return albedo;
 }
 
-void ComputeSheenTable(SheenTable* table) {
+namespace {
+
+void ComputeTable(bool is_cloth, SheenTable* table) {
   constexpr int kRows = SheenTable::kRows, kColumns = SheenTable::kColumns;
   float roughness[kRows];
   for (int row = 0; row < kRows; ++row) {
@@ -142,7 +170,7 @@ void ComputeSheenTable(SheenTable* table) {
     for (std::size_t column = begin; column < end; ++column) {
       float albedo[kRows];
       const double n_dot_v = FourthPower(Spaced(SheenTable::kFirstColumn, static_cast<int>(column), kColumns));
-      integrate(MakeColumn(n_dot_v, roughness, albedo));
+      integrate(MakeColumn(is_cloth, n_dot_v, roughness, albedo));
       for (std::size_t row = 0; row + 1 < kRows; ++row) {
         float* out = table->albedo + 2 * (row * kColumns + column);
         out[0] = albedo[row];
@@ -152,10 +180,22 @@ void ComputeSheenTable(SheenTable* table) {
   });
 }
 
+}  // namespace
+
+void ComputeSheenTable(SheenTable* table) { ComputeTable(false, table); }
+
 const SheenTable& SharedSheenTable() {
   static const std::unique_ptr<const SheenTable> table = [] {
     auto made = std::make_unique<SheenTable>();
     ComputeSheenTable(made.get());
+    return made;
+  }();
+  return *table;
+}
+const SheenTable& SharedClothTable() {
+  static const std::unique_ptr<const SheenTable> table = [] {
+    auto made = std::make_unique<SheenTable>();
+    ComputeTable(true, made.get());
     return made;
   }();
   return *table;

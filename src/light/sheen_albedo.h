@@ -22,11 +22,15 @@ struct SheenTable {
 // The table that all renderers share, computed at the first call. Thread-safe.
 const SheenTable& SharedSheenTable();
 
+// The same for the fibres of the model "filament" (material/models/filament/terms-inl.h).
+const SheenTable& SharedClothTable();
+
 // Computes a table, with the same bits on every instruction set and for any number of threads.
 void ComputeSheenTable(SheenTable* table);
 
 // E by quadrature, to 2e-5. `n_dot_v`: in (0, 1]; `perceptual_roughness`: in [kMinSheenRoughness, 1], to which it is
 // not clamped.
 double IntegrateSheenAlbedo(double n_dot_v, double perceptual_roughness);
+double IntegrateClothAlbedo(double n_dot_v, double perceptual_roughness);
 
 }  // namespace facet

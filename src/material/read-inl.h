@@ -7,6 +7,7 @@
 //   Vec3<T> Normal() const;                              // of the surface, unit
 //   Vec3<T> InterpolatedNormal() const;                  // not normalised
 //   Vec4<T> Tangent() const;                             // not normalised; w is the handedness
+//   T FootprintAlpha2() const;                           // Surface::footprint_alpha2; may be left out where it is 0
 //   T MetresPerUnit() const;                             // Surface::metres_per_unit, if Has(kVolume)
 
 #if defined(FACET_MATERIAL_READ_INL_H_) == defined(HWY_TARGET_TOGGLE)

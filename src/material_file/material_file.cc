@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -234,6 +235,12 @@ class MaterialFile {
         states_alpha_mode_ = true;
       }
     });
+    if constexpr (requires { AlphaModeOf(block); }) {
+      if (const std::optional<AlphaMode> mode = AlphaModeOf(block)) {
+        changes.alpha_mode = *mode;
+        states_alpha_mode_ = true;
+      }
+    }
   }
 
   void ReadCommon(const JsonValue& entry, Material& changes) {

@@ -188,6 +188,24 @@ bool ReadsTextureOf(const FrameMaterial& material, Feature feature) {
   return reads;
 }
 
+// The tables that the materials' lobes look up. Filament's models read one of their own in the place of glTF's.
+AlbedoTables TablesFor(const FramePlan& plan) {
+  AlbedoTables tables;
+  for (const PlannedMaterial& planned : plan.materials) {
+    const FrameMaterial& m = planned.frame;
+    const bool is_filament = m.model == ShadingModel::Filament;
+    tables.sheen |= m.Has(kSheen) && !is_filament;
+    tables.cloth |= m.Has(kSheen) && is_filament;
+    tables.anisotropic_dfg |= m.Has(kAnisotropy) && !is_filament;
+    if (m.model != ShadingModel::Lecture) continue;
+    const auto& p = m.Parameters<LectureParameters>();
+    tables.schlick_dfg[static_cast<std::size_t>(p.alpha)] |= plan.environment_light &&
+                                                             p.ambient == LectureAmbient::Image &&
+                                                             p.geometry == LectureGeometry::SchlickGgx;
+  }
+  return tables;
+}
+
 constexpr const char* kOnRequest = "on request";
 
 }  // namespace
@@ -294,17 +312,7 @@ FramePlan MakeFramePlan(const Scene& scene, const PosedScene& posed, const Rende
   if (settings.samples == 1) plan.disabled.emplace_back("multisampling: one sample a pixel");
   if (!settings.specular_antialiasing) plan.disabled.emplace_back(std::string("specular antialiasing: ") + kOnRequest);
   if (!settings.omit_unused) UseEverything(settings, plan);
-  const auto reads_schlick_dfg = [&](LectureAlpha alpha) {
-    return plan.environment_light && any([&](const FrameMaterial& m) {
-             if (m.model != ShadingModel::Lecture) return false;
-             const auto& p = m.Parameters<LectureParameters>();
-             return p.ambient == LectureAmbient::Image && p.geometry == LectureGeometry::SchlickGgx && p.alpha == alpha;
-           });
-  };
-  plan.albedo_tables = {
-      .sheen = any_has(kSheen),
-      .anisotropic_dfg = any_has(kAnisotropy),
-      .schlick_dfg = {reads_schlick_dfg(LectureAlpha::RoughnessSquared), reads_schlick_dfg(LectureAlpha::Roughness)}};
+  plan.albedo_tables = TablesFor(plan);
   return plan;
 }
 

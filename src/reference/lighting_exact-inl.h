@@ -44,6 +44,9 @@ class ExactLighting {
   double SheenAlbedo(double n_dot_v, double roughness) const {
     return lanes::LookupSheen(SharedSheenTable(), n_dot_v, roughness);
   }
+  double ClothAlbedo(double n_dot_v, double roughness) const {
+    return lanes::LookupSheen(SharedClothTable(), n_dot_v, roughness);
+  }
 
  private:
   struct Known {

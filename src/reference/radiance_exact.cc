@@ -119,7 +119,10 @@ glm::dvec3 RadianceOfModel(const ExactMaterial& material, const glm::dvec3& base
                            const ExactLight& light, const SampleRun& run) {
   const ExactSource source{material, point};
   const ExactLighting lighting(light.albedos);
-  const auto scattering = Model::template Make<double>(source, ToLanes(glm::dvec4(base_color, 1.0)), ToLanes(point.view), lighting);
+  // Models may reflect otherwise where they are covered by a part only.
+  const double coverage = source.Has(kAlphaBlend) ? material.BaseColor(point).w : 1.0;
+  const auto scattering =
+      Model::template Make<double>(source, ToLanes(glm::dvec4(base_color, coverage)), ToLanes(point.view), lighting);
 
   glm::dvec3 radiance = FromLanes(scattering.Emission());
   for (const PunctualLight& punctual : light.punctual) {
@@ -132,7 +135,7 @@ glm::dvec3 RadianceOfModel(const ExactMaterial& material, const glm::dvec3& base
     };
     radiance += ScatteredEnvironment(TechniquesOfShapes(scattering), scattered, light, run);
   }
-  return radiance;
+  return FromLanes(lanes::FinishOwn(scattering, ToLanes(radiance)).color);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "math/elementary.h"
+#include "reference/filament_exact.h"
 #include "reference/models_exact.h"
 
 namespace facet {
@@ -77,7 +78,8 @@ ExactTracer::Seen ExactTracer::Surface(const SurfacePoint& point, const glm::dve
   const ExactMaterial& material = MaterialOf(triangle.drawable);
   Seen seen{RadianceByModel(material, base_color, point, light_, run), glm::dvec3(0.0)};
   if (!material.Frame().Has(kTransmission)) return seen;
-  const ExactEntry entry = EntryAt(material, base_color, point, light_);
+  ExactEntry entry = EntryAt(material, base_color, point, light_);
+  if (material.Frame().model == ShadingModel::Filament) BlendFilament(material, seen.light, entry);
   seen.light += entry.punctual;
   if (entry.tint == glm::dvec3(0.0)) return seen;
   if (way.left == 0) {

@@ -6,6 +6,7 @@
 #include "light/lighting-inl.h"
 #include "math/elementary.h"
 #include "reference/exact_source-inl.h"
+#include "reference/filament_exact.h"
 #include "reference/lighting_exact-inl.h"
 #include "reference/sampling_exact-inl.h"
 
@@ -25,6 +26,7 @@ ExactInterface InterfaceAt(const ExactSource& source, const SurfacePoint& point,
 }  // namespace
 
 ExactInterface ExitAt(const ExactMaterial& material, const SurfacePoint& point) {
+  if (material.Frame().model == ShadingModel::Filament) return FilamentExitAt(material, point);
   const ExactSource source{material, point};
   const MaterialFactors& factors = source.Factors();
   const double roughness =
@@ -36,6 +38,9 @@ ExactInterface ExitAt(const ExactMaterial& material, const SurfacePoint& point) 
 
 ExactEntry EntryAt(const ExactMaterial& material, const glm::dvec3& base_color, const SurfacePoint& point,
                    const ExactLight& light) {
+  if (material.Frame().model == ShadingModel::Filament) {
+    return FilamentEntryAt(material, glm::dvec4(base_color, 1.0), point, light);
+  }
   const ExactSource source{material, point};
   auto in = lanes::ReadInputs<double>(source, ToLanes(glm::dvec4(base_color, 1.0)), material.Frame().features);
   if (material.Frame().model == ShadingModel::SpecularGlossiness) lanes::SetSpecularGlossiness(source, in);

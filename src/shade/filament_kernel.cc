@@ -1,4 +1,4 @@
-// The kernel of the model "filament".
+// The kernels of the model "filament".
 #include "material/models/models.h"
 #include "shade/shade_fragments.h"
 
@@ -18,6 +18,10 @@ void FilamentKernel(const ShadeTask& task) {
   Surface<Float> surfaces[2];
   ShadePackets(task, Filament(), surfaces);
 }
+void FilamentThroughKernel(const ShadeTask& task) {
+  Surface<Float> surfaces[2];
+  ShadePackets(task, ModelSeenThrough<Filament>{task}, surfaces);
+}
 
 }  // namespace HWY_NAMESPACE
 }  // namespace facet
@@ -27,7 +31,11 @@ HWY_AFTER_NAMESPACE();
 namespace facet {
 
 FACET_EXPORT(FilamentKernel);
-void ShadeFilament(const ShadeTask& task) { FACET_DISPATCH(FilamentKernel)(task); }
+FACET_EXPORT(FilamentThroughKernel);
+void ShadeFilament(const ShadeTask& task) {
+  if (task.seen_through != nullptr) return FACET_DISPATCH(FilamentThroughKernel)(task);
+  FACET_DISPATCH(FilamentKernel)(task);
+}
 
 }  // namespace facet
 #endif

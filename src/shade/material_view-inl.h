@@ -194,6 +194,7 @@ class MaterialView {
     HWY_INLINE const Vec3<T>& Normal() const { return s.normal; }
     HWY_INLINE const Vec3<T>& InterpolatedNormal() const { return s.interpolated_normal; }
     HWY_INLINE const Vec4<T>& Tangent() const { return s.tangent; }
+    HWY_INLINE T FootprintAlpha2() const { return s.footprint_alpha2; }
     HWY_INLINE T MetresPerUnit() const { return s.metres_per_unit; }
   };
 

@@ -33,7 +33,7 @@ FACET_GLTF_MODELS(FACET_MODEL_KERNEL)
     Surface<Float> surfaces[2];                                 \
     ShadePackets(task, ModelSeenThrough<Name>{task}, surfaces); \
   }
-FACET_MODELS_SEEN_THROUGH(FACET_MODEL_KERNEL)
+FACET_LAYERED_MODELS(FACET_MODEL_KERNEL)
 #undef FACET_MODEL_KERNEL
 
 void AlphaKernel(const ShadeTask& task) {
@@ -110,7 +110,7 @@ FACET_GLTF_MODELS(FACET_MODEL_EXPORT)
 #define FACET_MODEL_EXPORT(Name)       \
   FACET_EXPORT(Layered##Name##Kernel); \
   FACET_EXPORT(SeenThrough##Name##Kernel);
-FACET_MODELS_SEEN_THROUGH(FACET_MODEL_EXPORT)
+FACET_LAYERED_MODELS(FACET_MODEL_EXPORT)
 #undef FACET_MODEL_EXPORT
 FACET_EXPORT(AlphaKernel);
 FACET_EXPORT(EnvironmentAtKernel);
@@ -124,15 +124,15 @@ void ShadeLayered(const ShadeTask& task) {
   case ShadingModel::Name:                                                                \
     return task.seen_through != nullptr ? FACET_DISPATCH(SeenThrough##Name##Kernel)(task) \
                                         : FACET_DISPATCH(Layered##Name##Kernel)(task);
-    FACET_MODELS_SEEN_THROUGH(FACET_MODEL_CASE)
+    FACET_LAYERED_MODELS(FACET_MODEL_CASE)
 #undef FACET_MODEL_CASE
     default: break;
   }
 }
 
-// Whether the material needs the kernel with layers. Models that are not glTF's have only one.
+// Whether the material needs the kernel with layers. Models that are not glTF's choose their own.
 bool IsLayered(const FrameMaterial& material) {
-  return material.Has(kLayerFeatures) && (material.parameters == nullptr || material.is_seen_through);
+  return material.Has(kLayerFeatures) && material.parameters == nullptr;
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// The model "filament".
+// The model "filament": Filament's shading models lit, cloth, subsurface, specularGlossiness and unlit
+// (docs/models/filament.md).
 
 #if defined(FACET_MATERIAL_MODELS_FILAMENT_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef FACET_MATERIAL_MODELS_FILAMENT_INL_H_
@@ -7,40 +8,60 @@
 #define FACET_MATERIAL_MODELS_FILAMENT_INL_H_
 #endif
 
-#include "material/models/own_model-inl.h"
+#include "material/models/filament/blending-inl.h"
+#include "material/models/filament/environment-inl.h"
+#include "material/models/filament/refraction-inl.h"
+#include "material/models/seen_through-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace facet {
 namespace HWY_NAMESPACE {
 
 template <class T>
-struct FilamentScattering {
-  Vec3<T> normal{}, view{}, base_color{}, emission{};
-  T coverage{}, metallic{}, alpha{}, perceptual_roughness{}, occlusion{};
+struct FilamentScattering : filament::FilamentSurface<T> {
+  using Shading = filament::Shading;
+  Vec3<T> normal{}, view{};
+  filament::PostLighting<T> after;
 
-  HWY_INLINE Vec3<T> Emission() const { return emission; }
+  HWY_INLINE explicit FilamentScattering(const filament::FilamentSurface<T>& surface)
+      : filament::FilamentSurface<T>(surface), normal(surface.at.normal), view(surface.at.view) {}
+
+  HWY_INLINE Vec3<T> Emission() const {
+    return this->shading == Shading::Unlit ? this->base_color + this->emission : this->emission;
+  }
 
   template <class Lighting>
   HWY_INLINE Vec3<T> Direct(const Vec3<T>& direction, const Lighting&) const {
-    const T n_dot_l = Clamp(Dot(normal, direction), T(0.0f), T(1.0f));
-    return base_color * (n_dot_l * T(kInversePi));
+    switch (this->shading) {
+      case Shading::Unlit: return {};
+      case Shading::Cloth: return filament::DirectCloth(*this, direction);
+      case Shading::Subsurface: return filament::DirectSubsurface(*this, direction);
+      case Shading::Lit:
+      case Shading::SpecularGlossiness: break;
+    }
+    return filament::DirectLit(*this, direction);
   }
 
   template <class Lighting>
   HWY_INLINE Vec3<T> Environment(const Lighting& lighting) const {
-    return lighting.IrradianceOverPi(normal) * base_color * occlusion;
+    return this->shading == Shading::Unlit ? Vec3<T>{} : filament::FromPrefiltered(*this, lighting);
   }
 
   template <class Lighting>
-  HWY_INLINE Vec3<T> FromEnvironment(const Vec3<T>& direction, const Lighting& lighting) const {
-    return Direct(direction, lighting) * occlusion;
+  HWY_INLINE Vec3<T> FromEnvironment(const Vec3<T>& direction, const Lighting&) const {
+    return this->shading == Shading::Unlit ? Vec3<T>{} : filament::FromOneDirection(*this, direction);
   }
+
+  // The surface with all its light: blended with the colour that comes after lighting, and in straight alpha.
+  HWY_INLINE Shaded<T> Finish(const Vec3<T>& radiance) const { return filament::Finish<T>(*this, after, radiance); }
 
   template <class Visit>
   HWY_INLINE void ForEachShape(const Visit& visit) const {
-    visit(normal, alpha);
+    if (this->shading == Shading::Unlit || this->shading == Shading::Cloth) return;
+    visit(normal, this->alpha);
+    if (this->has_coat) visit(this->coat_at.normal, this->coat_alpha);
   }
-  HWY_INLINE bool TransmitsDiffusely() const { return false; }
+  HWY_INLINE bool TransmitsDiffusely() const { return this->has_subsurface; }
 };
 
 struct Filament : OwnModel<Filament> {
@@ -48,19 +69,31 @@ struct Filament : OwnModel<Filament> {
 
   template <class T, class Source, class Lighting>
   static HWY_INLINE FilamentScattering<T> Make(const Source& from, const Vec4<T>& base, const Vec3<T>& view,
-                                          const Lighting&) {
+                                               const Lighting& lighting) {
     const Block& p = from.template Parameters<Block>();
-    FilamentScattering<T> s;
-    s.view = view;
-    s.base_color = Xyz(base);
-    s.coverage = base.w;
-    s.metallic = ReadParameter<T>(from, p.metallic, SlotOf(&Block::metallic));
-    s.perceptual_roughness = ReadParameter<T>(from, p.roughness, SlotOf(&Block::roughness));
-    s.alpha = s.perceptual_roughness * s.perceptual_roughness;
-    s.normal = ReadParameter<T>(from, p.normal, SlotOf(&Block::normal));
-    s.occlusion = ReadParameter<T>(from, p.ambient_occlusion, SlotOf(&Block::ambient_occlusion));
-    if (from.Has(kEmission)) s.emission = Xyz(ReadParameter<T>(from, p.emissive, SlotOf(&Block::emissive)));
+    FilamentScattering<T> s(filament::SurfaceReader<T, Source>(from, p).Read(base, view, lighting));
+    s.after = filament::ReadPostLighting<T>(from, p);
     return s;
+  }
+
+  // For materials that light passes through, or whose blending is more than alpha.
+  template <class T, class Material, class Lighting>
+  static HWY_INLINE ShadedThrough<T> Through(const Surface<T>& surface, const Material& material,
+                                             const Lighting& lighting) {
+    return material.Read(surface, [&](const auto& from, const Vec4<T>& base) HWY_ATTR {
+      const FilamentScattering<T> s = Make<T>(from, base, surface.view, lighting);
+      ShadedThrough<T> out{};
+      out.own = s.Finish(AllLight(s, surface.position, lighting));
+      if (s.refracts) {
+        const filament::Refraction<T> r = filament::RefractionAt(s, from, surface.metres_per_unit);
+        out.tint = r.tint;
+        for (int c = 0; c < 3; ++c) out.path[c] = r.path[c];
+        out.spread = r.spread;
+      } else {
+        filament::BlendWithBehind(s, out.own, out.tint);
+      }
+      return out;
+    });
   }
 };
 

@@ -1,26 +1,158 @@
 // The parameters of the model "filament": one row each.
 #pragma once
 
+#include <array>
+#include <optional>
 #include <type_traits>
 
 #include "material/models/row.h"
 
 namespace facet {
 
+// Of enumerations, in their order.
+namespace filament_words {
+inline constexpr std::array kShadings = {"lit", "cloth", "subsurface", "specularGlossiness", "unlit"};
+inline constexpr std::array kBlendings = {"alphaMode", "opaque", "masked",   "transparent",
+                                          "fade",      "add",    "multiply", "screen"};
+inline constexpr std::array kPostLighting = {"opaque", "transparent", "add", "multiply", "screen"};
+inline constexpr std::array kModes = {"none", "screenspace"};
+inline constexpr std::array kTypes = {"solid", "thin"};
+inline constexpr std::array kOcclusions = {"none", "simple", "bentNormals"};
+}  // namespace filament_words
+
 template <class Visit>
 constexpr void ForEachRow(std::type_identity<FilamentParameters>, const Visit& visit) {
   using P = FilamentParameters;
+  constexpr auto kInfinity = std::numeric_limits<float>::infinity();
+  constexpr ParameterRange kColor{0.0f, 1.0f, P::kNotStated};
+  using namespace filament_words;
+
   visit(Row("baseColor", &P::base_color, "the colour of diffuse reflection, or of a metal; alpha is coverage"));
+  visit(Row("shadingModel", &P::shading_model, "which of Filament's shading models", {.words = kShadings}));
+  visit(Row("blending", &P::blending, "how the surface covers what is behind it", {.words = kBlendings}));
   visit(Row("metallic", &P::metallic, "from a dielectric to a metal"));
   visit(Row("roughness", &P::roughness, "perceptual roughness"));
-  visit(Row("normal", &P::normal, "of the surface", {.range = kAnyNumber, .feature = Feature::NormalTexture}));
+  visit(Row("reflectance", &P::reflectance, "of a dielectric: F0 is 0.16 times its square"));
+  visit(Row("specularFactor", &P::specular_factor, "a factor of a dielectric's F0 and F90",
+            {.feature = Feature::Specular}));
+  visit(Row("specularColorFactor", &P::specular_color_factor, "a factor of a dielectric's F0",
+            {.range = kNotNegative, .feature = Feature::Specular}));
+  visit(Row("glossiness", &P::glossiness, "of specularGlossiness: 1 - perceptual roughness"));
+  visit(Row("specularColor", &P::specular_color, "of specularGlossiness: F0"));
+  visit(Row("sheenColor", &P::sheen_color,
+            "of the layer of fibres; not stated (-1): none, or for cloth the root of the base colour",
+            {.range = kColor, .feature = Feature::Sheen}));
+  visit(Row("sheenRoughness", &P::sheen_roughness, "of that layer", {.feature = Feature::Sheen}));
+  visit(Row("clearCoat", &P::clear_coat, "how much of the clear coat there is", {.feature = Feature::Clearcoat}));
+  visit(Row("clearCoatRoughness", &P::clear_coat_roughness, "of the clear coat", {.feature = Feature::Clearcoat}));
+  visit(Row("clearCoatNormal", &P::clear_coat_normal, "of the clear coat",
+            {.range = kAnyNumber, .feature = Feature::Clearcoat}));
+  visit(Row("clearCoatIorChange", &P::clear_coat_ior_change, "whether the coat lowers the F0 of what is under it",
+            {.feature = Feature::Clearcoat}));
+  visit(Row("anisotropy", &P::anisotropy, "above 0: rougher along the direction; below 0: across it",
+            {.range = {-1.0f, 1.0f}, .feature = Feature::Anisotropy}));
+  visit(Row("anisotropyDirection", &P::anisotropy_direction, "in tangent space; of a texture, 2 texel - 1",
+            {.range = kAnyNumber, .is_data = true, .feature = Feature::Anisotropy}));
+  visit(Row("iridescence", &P::iridescence, "how much of the thin film there is", {.feature = Feature::Iridescence}));
+  visit(Row("iridescenceIor", &P::iridescence_ior, "of the thin film",
+            {.range = {1.0f, kInfinity}, .feature = Feature::Iridescence}));
+  visit(Row("iridescenceThickness", &P::iridescence_thickness, "of the thin film",
+            {.range = kNotNegative, .unit = "nm", .feature = Feature::Iridescence}));
   visit(Row("ambientOcclusion", &P::ambient_occlusion, "the share of ambient light that arrives",
             {.feature = Feature::Occlusion}));
+  visit(Row("specularAmbientOcclusion", &P::specular_ambient_occlusion, "how occlusion dims reflections",
+            {.words = kOcclusions, .feature = Feature::Occlusion}));
+  visit(Row("multiBounceAmbientOcclusion", &P::multi_bounce_ambient_occlusion,
+            "whether occluded surfaces light one another", {.feature = Feature::Occlusion}));
+  visit(Row("normal", &P::normal, "of the surface", {.range = kAnyNumber, .feature = Feature::NormalTexture}));
+  visit(Row("bentNormal", &P::bent_normal, "the mean direction that is not occluded",
+            {.range = kAnyNumber, .feature = Feature::Occlusion}));
+  visit(Row("subsurfaceColor", &P::subsurface_color,
+            "of light that passes through; not stated (-1): white, or for cloth none",
+            {.range = kColor, .feature = Feature::DiffuseTransmission}));
+  visit(Row("subsurfacePower", &P::subsurface_power, "how narrow forward scattering is",
+            {.range = kNotNegative, .feature = Feature::DiffuseTransmission}));
+  visit(Row("refractionMode", &P::refraction_mode, "whether light passes through",
+            {.words = kModes, .feature = Feature::Transmission}));
+  visit(Row("refractionType", &P::refraction_type, "a solid, which refracts, or a thin wall",
+            {.words = kTypes, .feature = Feature::Volume}));
+  visit(Row("ior", &P::ior, "index of refraction; 0: that of the reflectance",
+            {.range = {1.0f, kInfinity, 0.0f}, .feature = Feature::Ior}));
+  visit(Row("transmission", &P::transmission, "the share of diffuse light that passes through",
+            {.feature = Feature::Transmission}));
+  visit(Row("absorption", &P::absorption, "of what is inside",
+            {.range = kNotNegative, .unit = "1/m", .is_data = true, .feature = Feature::Volume}));
+  visit(Row("thickness", &P::thickness, "of a solid; for subsurface a share, from 0 to 1",
+            {.range = kNotNegative, .unit = "m", .feature = Feature::Volume}));
+  visit(Row("microThickness", &P::micro_thickness, "of a thin wall",
+            {.range = kNotNegative, .unit = "m", .feature = Feature::Volume}));
+  visit(Row("dispersion", &P::dispersion, "20 divided by Abbe's number",
+            {.range = kNotNegative, .feature = Feature::Dispersion}));
   visit(Row("emissive", &P::emissive, "light that the surface emits; alpha is the weight of the exposure",
             {.range = kNotNegative, .unit = "cd/m2", .feature = Feature::Emission}));
+  visit(Row("exposure", &P::exposure, "of the picture; emission of weight 0 is divided by it",
+            {.range = {std::numeric_limits<float>::min(), kInfinity}, .feature = Feature::Emission}));
+  visit(Row("postLightingColor", &P::post_lighting_color, "blended with the lit surface; premultiplied"));
+  visit(Row("postLightingMixFactor", &P::post_lighting_mix_factor, "how much of that is mixed in"));
+  visit(Row("postLightingBlending", &P::post_lighting_blending, "how it is blended", {.words = kPostLighting}));
+}
+
+// Whether the light behind the surface is refracted, or blended in a way that alpha cannot express.
+inline bool IsSeenThrough(const FilamentParameters& p) {
+  using Blending = FilamentParameters::Blending;
+  return p.blending == Blending::Add || p.blending == Blending::Multiply || p.blending == Blending::Screen;
+}
+inline bool Refracts(const FilamentParameters& p) {
+  using Shading = FilamentParameters::Shading;
+  return p.refraction_mode != FilamentParameters::RefractionMode::None && p.transmission.value != 0.0f &&
+         (p.shading_model == Shading::Lit || p.shading_model == Shading::SpecularGlossiness) && !IsSeenThrough(p);
+}
+
+// Whether it reads the albedo of cloth.
+inline bool HasFibres(const FilamentParameters& p) {
+  using Shading = FilamentParameters::Shading;
+  if (p.shading_model == Shading::Cloth) return true;
+  const bool layered = p.shading_model == Shading::Lit || p.shading_model == Shading::SpecularGlossiness;
+  return layered && p.sheen_color.value.x >= 0.0f && p.sheen_color.value != glm::vec3(0.0f);
 }
 
 // The features that the parameters make visible, besides the textures.
-inline MaterialFeatures FeaturesOf(const FilamentParameters& p) { return glm::vec3(p.emissive.value) != glm::vec3(0.0f) ? kEmission : MaterialFeatures{0}; }
+inline MaterialFeatures FeaturesOf(const FilamentParameters& p) {
+  using Shading = FilamentParameters::Shading;
+  MaterialFeatures features = kDiffuseLobe;
+  const auto set = [&features](bool condition, MaterialFeatures bits) {
+    if (condition) features |= bits;
+  };
+  set(glm::vec3(p.emissive.value) != glm::vec3(0.0f), kEmission);
+  set(IsSeenThrough(p), kTransmission);
+  const bool layered = p.shading_model == Shading::Lit || p.shading_model == Shading::SpecularGlossiness;
+  set(HasFibres(p), kSheen);
+  set(p.subsurface_color.value.x >= 0.0f, kDiffuseTransmission);
+  if (!layered) return features;
+  set(p.clear_coat.value != 0.0f, kClearcoat);
+  set(p.anisotropy.value != 0.0f, kAnisotropy | kTangents);
+  set(p.iridescence.value != 0.0f, kIridescence);
+  set(p.ior != 0.0f, kIor);
+  set(p.specular_factor != Textured<float>{1.0f} || p.specular_color_factor != Textured<glm::vec3>{glm::vec3(1.0f)},
+      kSpecular);
+  const bool solid = p.refraction_type == FilamentParameters::RefractionType::Solid;
+  if (Refracts(p)) {
+    features |= kTransmission;
+    set(solid, kVolume);
+    set(solid && p.dispersion != 0.0f, kDispersion);
+  }
+  return features;
+}
+
+// The alpha mode that a stated blending stands for.
+inline std::optional<AlphaMode> AlphaModeOf(const FilamentParameters& p) {
+  using Blending = FilamentParameters::Blending;
+  switch (p.blending) {
+    case Blending::AlphaMode: return std::nullopt;
+    case Blending::Opaque: return AlphaMode::Opaque;
+    case Blending::Masked: return AlphaMode::Mask;
+    default: return AlphaMode::Blend;
+  }
+}
 
 }  // namespace facet

@@ -13,6 +13,7 @@
 //   Vec3<T> FromEnvironment(Vec3<T> direction, lighting) const;  // what Environment() approximates: its integrand
 //   void ForEachShape(visit) const;                       // visit(normal, alpha) for each specular lobe
 //   bool TransmitsDiffusely() const;                      // whether light from behind counts
+//   Shaded<T> Finish(Vec3<T> radiance) const;             // may be left out: what becomes of all its light
 // The reference integrates FromEnvironment() over all directions; the last two say where it is large.
 
 #if defined(FACET_MATERIAL_MODELS_OWN_MODEL_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -30,16 +31,22 @@ HWY_BEFORE_NAMESPACE();
 namespace facet {
 namespace HWY_NAMESPACE {
 
+// A texel. A function of its own, because models have dozens of textures.
+template <int kChannels, class T, class Source>
+HWY_NOINLINE Vec4<T> ReadTexel(const Source& from, Slot slot) {
+  return from.template Read<kChannels>(slot);
+}
+
 // A number: its value times the texture's channel.
 template <class T, class Source>
 HWY_INLINE T ReadParameter(const Source& from, const Textured<float>& parameter, Slot slot) {
   const T value(parameter.value);
   if (!from.Has(BitOf(slot))) return value;
   switch (parameter.channel) {
-    case 0: return value * from.template Read<kR>(slot).x;
-    case 1: return value * from.template Read<kG>(slot).y;
-    case 2: return value * from.template Read<kB>(slot).z;
-    default: return value * from.template Read<kA>(slot).w;
+    case 0: return value * ReadTexel<kR, T>(from, slot).x;
+    case 1: return value * ReadTexel<kG, T>(from, slot).y;
+    case 2: return value * ReadTexel<kB, T>(from, slot).z;
+    default: return value * ReadTexel<kA, T>(from, slot).w;
   }
 }
 
@@ -47,12 +54,12 @@ HWY_INLINE T ReadParameter(const Source& from, const Textured<float>& parameter,
 template <class T, class Source>
 HWY_INLINE Vec3<T> ReadParameter(const Source& from, const Textured<glm::vec3>& parameter, Slot slot) {
   const Vec3<T> value{T(parameter.value.x), T(parameter.value.y), T(parameter.value.z)};
-  return from.Has(BitOf(slot)) ? value * Xyz(from.template Read<kRgb>(slot)) : value;
+  return from.Has(BitOf(slot)) ? value * Xyz(ReadTexel<kRgb, T>(from, slot)) : value;
 }
 template <class T, class Source>
 HWY_INLINE Vec4<T> ReadParameter(const Source& from, const Textured<glm::vec4>& parameter, Slot slot) {
   const Vec4<T> value{T(parameter.value.x), T(parameter.value.y), T(parameter.value.z), T(parameter.value.w)};
-  return from.Has(BitOf(slot)) ? value * from.template Read<kRgba>(slot) : value;
+  return from.Has(BitOf(slot)) ? value * ReadTexel<kRgba, T>(from, slot) : value;
 }
 
 // A direction given in tangent space, in world axes: unit.
@@ -67,6 +74,16 @@ HWY_INLINE Vec3<T> ReadParameter(const Source& from, const TangentSpaceNormal& p
       tangent * T(value.x) + bitangent * T(value.y) + from.InterpolatedNormal() * T(value.z), from.Normal());
 }
 
+// The surface with all its light.
+template <class Scattering, class T>
+HWY_INLINE Shaded<T> FinishOwn(const Scattering& scattering, const Vec3<T>& radiance) {
+  if constexpr (requires { scattering.Finish(radiance); }) {
+    return scattering.Finish(radiance);
+  } else {
+    return {radiance, scattering.coverage};
+  }
+}
+
 template <class Model>
 struct OwnModel {
   template <class T, class Material, class Lighting>
@@ -79,15 +96,21 @@ struct OwnModel {
   static HWY_INLINE Shaded<T> With(const Surface<T>& surface, const Material& material, const Lighting& lighting) {
     return material.Read(surface, [&](const auto& source, const Vec4<T>& base) HWY_ATTR {
       const auto scattering = Model::template Make<T>(source, base, surface.view, lighting);
-      Vec3<T> radiance = scattering.Emission();
-      if (lighting.HasEnvironment()) radiance += scattering.Environment(lighting);
-      const int light_count = lighting.LightCount();
-      for (int i = 0; i < light_count; ++i) {
-        const LightSample<T> light = lighting.Sample(i, surface.position);
-        radiance += scattering.Direct(light.direction, lighting) * light.irradiance;
-      }
-      return Shaded<T>{radiance, scattering.coverage};
+      return FinishOwn(scattering, AllLight(scattering, surface.position, lighting));
     });
+  }
+
+  // Of the emission, the environment and the punctual lights.
+  template <class Scattering, class T, class Lighting>
+  static HWY_INLINE Vec3<T> AllLight(const Scattering& scattering, const Vec3<T>& position, const Lighting& lighting) {
+    Vec3<T> radiance = scattering.Emission();
+    if (lighting.HasEnvironment()) radiance += scattering.Environment(lighting);
+    const int light_count = lighting.LightCount();
+    for (int i = 0; i < light_count; ++i) {
+      const LightSample<T> light = lighting.Sample(i, position);
+      radiance += scattering.Direct(light.direction, lighting) * light.irradiance;
+    }
+    return radiance;
   }
 };
 
