@@ -130,9 +130,9 @@ void ShadeLayered(const ShadeTask& task) {
   }
 }
 
-// Whether the material needs the kernel with layers. Models that are not glTF's have only one.
+// Whether the material needs the kernel with layers. Models that are not glTF's choose by themselves.
 bool IsLayered(const FrameMaterial& material) {
-  return material.Has(kLayerFeatures) && (material.parameters == nullptr || material.is_seen_through);
+  return material.Has(kLayerFeatures) && material.parameters == nullptr;
 }
 
 }  // namespace

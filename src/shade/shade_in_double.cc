@@ -32,6 +32,7 @@ lanes::Shaded<double> ShadeSeenThrough(const ShadeTask& task, const lanes::Surfa
 #define FACET_MODEL_CASE(Name) \
   case ShadingModel::Name: return shade(lanes::Name());
     FACET_MODELS_SEEN_THROUGH(FACET_MODEL_CASE)
+    FACET_OWN_MODELS_SEEN_THROUGH(FACET_MODEL_CASE)
 #undef FACET_MODEL_CASE
     default: break;
   }

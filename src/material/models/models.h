@@ -18,6 +18,8 @@
 
 // Those of them that have layers, and that light can pass through.
 #define FACET_MODELS_SEEN_THROUGH(X) X(MetallicRoughness) X(SpecularGlossiness)
+// The same of the models that have parameters of their own; their kernels choose.
+#define FACET_OWN_MODELS_SEEN_THROUGH(X) X(Enterprise)
 
 namespace facet {
 

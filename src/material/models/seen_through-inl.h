@@ -25,6 +25,20 @@ struct ShadedThrough {
   T spread{};  // TransmissionLobe::Spread()
 };
 
+// Where and how sharply things are seen through the surface. `in`: of the closure, with the thickness in metres.
+template <class T>
+HWY_INLINE void SetPaths(const Closure<T>& closure, const MaterialInputs<T>& in, ShadedThrough<T>& out) {
+  const T thickness = in.transmission.thickness;
+  const Vec3<T>& ior = in.transmission.ior;
+  out.spread = closure.transmission.Spread(thickness, ior.y);
+  if ((in.lobes & kVolume) == 0) return;
+  out.path[0] = RefractedPath(closure.at, ior.x, thickness);
+  if ((in.lobes & kDispersion) != 0) {
+    out.path[1] = RefractedPath(closure.at, ior.y, thickness);
+    out.path[2] = RefractedPath(closure.at, ior.z, thickness);
+  }
+}
+
 // `metres_per_unit`: of the mesh, in which thickness is stated; 0: no medium begins here.
 template <class T, class Lighting>
 HWY_INLINE ShadedThrough<T> ShadeThrough(MaterialInputs<T> in, const Surface<T>& surface, T metres_per_unit,
@@ -35,15 +49,7 @@ HWY_INLINE ShadedThrough<T> ShadeThrough(MaterialInputs<T> in, const Surface<T>&
   ShadedThrough<T> out{};
   out.own = {ShadeClosure(closure, in, surface.position, lighting), in.alpha_coverage};
   out.tint = closure.transmission.color;
-  out.spread = closure.transmission.Spread(in.transmission.thickness, in.transmission.ior.y);
-  if (!has_volume) return out;
-  const T thickness = in.transmission.thickness;
-  const Vec3<T>& ior = in.transmission.ior;
-  out.path[0] = RefractedPath(closure.at, ior.x, thickness);
-  if ((in.lobes & kDispersion) != 0) {
-    out.path[1] = RefractedPath(closure.at, ior.y, thickness);
-    out.path[2] = RefractedPath(closure.at, ior.z, thickness);
-  }
+  SetPaths(closure, in, out);
   return out;
 }
 
