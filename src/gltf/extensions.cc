@@ -4,6 +4,7 @@
 #include <map>
 #include <string_view>
 
+#include "gltf/enterprise.h"
 #include "material/models/models.h"
 #include "material/parameters.h"
 
@@ -23,7 +24,7 @@ bool IsSupported(const std::string& extension) {
   };
   for (const ModelInfo& model : kModels) compare(model.gltf_extension);
   ForEachParameter([&](const auto& parameter) { compare(parameter.gltf_group); });
-  return supported;
+  return supported || IsEnterpriseExtension(extension);
 }
 
 void ReadExtensions(Context& context) {

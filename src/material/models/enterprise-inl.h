@@ -83,6 +83,7 @@ struct EnterpriseScattering {
 
   // What is seen through the surface is multiplied by this.
   HWY_INLINE Vec3<T> Tint() const {
+    if (!closure.Has(kTransmission)) return Vec3<T>{};
     Vec3<T> tint = closure.transmission.color;
     if (has_flakes) tint = tint * (T(1.0f) - flakes.Share());
     if (has_coat) tint = tint * coat.EnergyLeft();

@@ -28,8 +28,11 @@ HWY_INLINE Vec3<T> ReadEnterpriseEmission(const Source& from, const EnterprisePa
   const Vec3<T> color = ReadParameter<T>(from, p.emission_color, SlotOf(&P::emission_color));
   const T value = T(p.emission_value) * T(kInversePi);
   if (!p.emission_energy_normalization) return color * value;
-  const T luminance = Dot(color, Vec3<T>{T(0.2126729f), T(0.7151522f), T(0.0721750f)});
-  return color * Select(luminance > T(0.0f), value / Max(luminance, T(1e-30f)), T(0.0f));
+  // Divided by its largest component first, which keeps dark colours from underflowing.
+  const T largest = MaxComponent(color);
+  const Vec3<T> bright = color / Max(largest, T(1e-37f));
+  const T luminance = Dot(bright, Vec3<T>{T(0.2126729f), T(0.7151522f), T(0.0721750f)});
+  return bright * Select(largest > T(0.0f), value / Max(luminance, T(0.01f)), T(0.0f));
 }
 
 // The widths along and across the tangent are roughness^2 and (roughness (1 - anisotropy))^2. The lobe takes the
