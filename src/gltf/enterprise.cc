@@ -36,7 +36,7 @@ void ReadNamed(const Json& group, const Place& place, const RowOptions&, const c
   out = LenientBool(group, name, place).value_or(out);
 }
 template <class Value>
-  requires std::is_enum_v<Value>
+requires std::is_enum_v<Value>
 void ReadNamed(const Json& group, const Place& place, const RowOptions& row, const char* name, Value& out) {
   const auto text = LenientString(group, name, place);
   if (!text) return;
@@ -50,7 +50,7 @@ void ReadNamed(const Json& group, const Place& place, const RowOptions& row, con
   Place(place, name).Warn("\"" + *text + "\" is unknown; " + row.words[0] + " is used");
 }
 template <class Value>
-  requires kHasTexture<Value>
+requires kHasTexture<Value>
 void ReadNamed(const Json& group, const Place& place, const RowOptions& row, const char* name, Value& out) {
   ReadNamed(group, place, row, name, out.value);
 }
@@ -117,9 +117,8 @@ bool IsEnterpriseExtension(std::string_view name) {
 
 bool IsEnterprise(const Json& material, const Place& place) {
   const Json* const extensions = LenientObject(material, "extensions", place);
-  return extensions != nullptr && std::ranges::any_of(extensions->items(), [](const auto& item) {
-           return IsEnterpriseExtension(item.key());
-         });
+  return extensions != nullptr &&
+         std::ranges::any_of(extensions->items(), [](const auto& item) { return IsEnterpriseExtension(item.key()); });
 }
 
 void ReadEnterprise(const Json& object, const Place& place, const ReadTextureInfo& read_texture, Material& material) {

@@ -11,9 +11,9 @@ namespace facet::gltf {
 
 // Extensions by the draft texts of the specification's repository (gltf_ext, 2022x), and one that states parameters by
 // the names that they have in the specification.
-inline constexpr std::string_view kEnterpriseExtensions[] = {
-    "3DS_materials_anisotropy", "3DS_materials_emission", "3DS_materials_enterprise_pbr", "3DS_materials_sss",
-    "3DS_materials_translucency", "3DS_materials_volume"};
+inline constexpr std::string_view kEnterpriseExtensions[] = {"3DS_materials_anisotropy",     "3DS_materials_emission",
+                                                             "3DS_materials_enterprise_pbr", "3DS_materials_sss",
+                                                             "3DS_materials_translucency",   "3DS_materials_volume"};
 
 bool IsEnterpriseExtension(std::string_view name);
 

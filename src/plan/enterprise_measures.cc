@@ -56,14 +56,13 @@ MeshMeasures MeasureMesh(const Drawable& drawable) {
 
 EnterpriseMeasures MeasuresFor(const EnterpriseParameters& p, const Drawable& drawable) {
   const bool has_flakes = p.flake_coverage.value != 0.0f, has_volume = PassesVolume(p);
-  const bool needs_mesh =
-      IsPower(p) || (has_volume && p.thickness == 0.0f) || (has_flakes && p.texture_scale == 0.0f);
+  const bool needs_mesh = IsPower(p) || (has_volume && p.thickness == 0.0f) || (has_flakes && p.texture_scale == 0.0f);
   const MeshMeasures mesh = needs_mesh ? MeasureMesh(drawable) : MeshMeasures{};
   EnterpriseMeasures measures{};
   if (IsPower(p)) measures[0] = mesh.area > 0.0 ? RoundToFiniteFloat(double(p.emission_value) / mesh.area) : 0.0f;
   if (has_volume) {
-    measures[1] = RoundToFiniteFloat(p.thickness == 0.0f ? mesh.mean_chord
-                                                         : double(p.thickness) * MetresPerUnit(drawable));
+    measures[1] =
+        RoundToFiniteFloat(p.thickness == 0.0f ? mesh.mean_chord : double(p.thickness) * MetresPerUnit(drawable));
   }
   if (has_flakes) {
     measures[2] = p.texture_scale == 0.0f ? RoundToFiniteFloat(mesh.metres_per_uv) : p.texture_scale;

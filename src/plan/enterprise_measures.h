@@ -9,8 +9,8 @@
 namespace facet {
 
 struct MeshMeasures {
-  double area = 0.0;         // m2, world
-  double mean_chord = 0.0;   // metres: 4 volume / area, the mean length of straight ways through a closed convex mesh
+  double area = 0.0;           // m2, world
+  double mean_chord = 0.0;     // metres: 4 volume / area, the mean length of straight ways through a closed convex mesh
   double metres_per_uv = 0.0;  // the square root of the mesh's area over that in TEXCOORD_0; 0: it has none
 };
 MeshMeasures MeasureMesh(const Drawable& drawable);

@@ -131,9 +131,7 @@ void ShadeLayered(const ShadeTask& task) {
 }
 
 // Whether the material needs the kernel with layers. Models that are not glTF's choose by themselves.
-bool IsLayered(const FrameMaterial& material) {
-  return material.Has(kLayerFeatures) && material.parameters == nullptr;
-}
+bool IsLayered(const FrameMaterial& material) { return material.Has(kLayerFeatures) && material.parameters == nullptr; }
 
 }  // namespace
 

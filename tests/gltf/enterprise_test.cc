@@ -28,8 +28,8 @@ EnterpriseParameters ParametersOf(const LoadedScene& loaded) {
 TEST(EnterpriseGltf, ItsExtensionsAreSupported) {
   for (const std::string_view name : gltf::kEnterpriseExtensions) EXPECT_TRUE(gltf::IsSupported(std::string(name)));
   EXPECT_FALSE(gltf::IsSupported("3DS_materials"));
-  const LoadedScene loaded = LoadMaterial(R"("extensions":{"3DS_materials_emission":{}})",
-                                          R"("extensionsUsed":["3DS_materials_emission"],)");
+  const LoadedScene loaded =
+      LoadMaterial(R"("extensions":{"3DS_materials_emission":{}})", R"("extensionsUsed":["3DS_materials_emission"],)");
   ASSERT_EQ(loaded.report.extensions.size(), 1u);
   EXPECT_TRUE(loaded.report.extensions[0].supported);
 }
@@ -108,8 +108,9 @@ TEST(EnterpriseGltf, ExtrasCountAsExtensions) {
       R"("extras":{"3DS_materials_translucency":{"translucencyFactor":0.25},"3DS_materials_other":3,"mine":null},
       "extensions":{"3DS_materials_translucency":{"translucencyFactor":0.75}})");
   EXPECT_EQ(ParametersOf(loaded).translucency.value, 0.75f) << "the extension wins";
-  EXPECT_EQ(ParametersOf(LoadMaterial(R"("extras":{"3DS_materials_sss":{"subsurfaceColor":[1,1,1]}})")).subsurface_color,
-            glm::vec3(1.0f));
+  EXPECT_EQ(
+      ParametersOf(LoadMaterial(R"("extras":{"3DS_materials_sss":{"subsurfaceColor":[1,1,1]}})")).subsurface_color,
+      glm::vec3(1.0f));
 }
 
 TEST(EnterpriseGltf, ParametersByTheirOwnNames) {

@@ -1,5 +1,5 @@
-// Flakes of the model "enterprise": how much of a surface they cover, what they reflect on average, that they stay where
-// they are, and that their mean is what a pixel shows where they are small.
+// Flakes of the model "enterprise": how much of a surface they cover, what they reflect on average, that they stay
+// where they are, and that their mean is what a pixel shows where they are small.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -58,9 +58,8 @@ TEST(EnterpriseFlakes, AreTiltedAsGgxHasIt) {
     for (const double c2 : {0.9, 0.6, 0.3}) {
       // Walter et al., 2007, equation 35: the share of normals within an angle is tan^2 / (alpha^2 + tan^2).
       const double tan2 = 1.0 / c2 - 1.0, expected = tan2 / (a2 + tan2);
-      const double within = Mean(Inputs(1.0, roughness), Seen(1.0), 100000, [&](const auto& f) {
-        return f.flake_normal.z * f.flake_normal.z >= c2 ? 1.0 : 0.0;
-      });
+      const double within = Mean(Inputs(1.0, roughness), Seen(1.0), 100000,
+                                 [&](const auto& f) { return f.flake_normal.z * f.flake_normal.z >= c2 ? 1.0 : 0.0; });
       EXPECT_NEAR(within, expected, 1e-2) << roughness << " " << c2;
     }
   }
@@ -77,8 +76,8 @@ TEST(EnterpriseFlakes, WidthsAddUp) {
 }
 
 // What many flakes reflect of a light, averaged over a patch of directions so that single flakes do not count, is the
-// mean that pixels show where flakes are small. A cone does not blur as GGX does, which shows where the cone is nearly as
-// wide as the tilts.
+// mean that pixels show where flakes are small. A cone does not blur as GGX does, which shows where the cone is nearly
+// as wide as the tilts.
 TEST(EnterpriseFlakes, TheMeanOfLightsIsThatOfMany) {
   for (const double roughness : {0.15, 0.4}) {
     for (const double n_dot_v : {1.0, 0.6}) {
@@ -90,10 +89,11 @@ TEST(EnterpriseFlakes, TheMeanOfLightsIsThatOfMany) {
       EXPECT_EQ(many.filtered, 1.0);
       for (const double tilt : {0.0, 0.15}) {
         // A light near the mirror direction.
-        const Vec3<double> l = lanes::NormalizeOr(
-            Vec3<double>{-at.view.x + tilt, 0.3 * tilt, at.view.z}, Vec3<double>{0.0, 0.0, 1.0});
+        const Vec3<double> l =
+            lanes::NormalizeOr(Vec3<double>{-at.view.x + tilt, 0.3 * tilt, at.view.z}, Vec3<double>{0.0, 0.0, 1.0});
         const double single = Mean(in, at, 200000, [&](const auto& f) { return f.Direct(at, l).y; });
-        EXPECT_NEAR(single, many.Direct(at, l).y, (roughness < 0.2 ? 0.14 : 0.03) * single) << roughness << " " << n_dot_v << " " << tilt;
+        EXPECT_NEAR(single, many.Direct(at, l).y, (roughness < 0.2 ? 0.14 : 0.03) * single)
+            << roughness << " " << n_dot_v << " " << tilt;
       }
     }
   }

@@ -20,9 +20,9 @@ std::filesystem::path Folder() {
   return std::filesystem::path(corpus != nullptr ? corpus : FACET_SOURCE_DIR "/../shared/corpus") / "enterprise-pbr";
 }
 
-#define NEED_TABLES()                                                                      \
-  if (!std::filesystem::exists(Folder() / "params-2025x.json")) {                          \
-    GTEST_SKIP() << "the specification's tables are not at " << Folder().string();         \
+#define NEED_TABLES()                                                              \
+  if (!std::filesystem::exists(Folder() / "params-2025x.json")) {                  \
+    GTEST_SKIP() << "the specification's tables are not at " << Folder().string(); \
   }
 
 Json ReadTable(const char* version) {
@@ -30,7 +30,8 @@ Json ReadTable(const char* version) {
   return Json::parse(file)["materials"];
 }
 
-// --- Values as JSON, rounded as the table's numbers are ---------------------------------------------------------------
+// --- Values as JSON, rounded as the table's numbers are
+// ---------------------------------------------------------------
 
 Json Number(float value) {
   if (std::isinf(value)) return {{"infinity", true}};
@@ -40,15 +41,9 @@ Json ToJson(const RowOptions&, float value) { return Number(value); }
 Json ToJson(const RowOptions&, const glm::vec3& v) { return Json::array({Number(v.x), Number(v.y), Number(v.z)}); }
 Json ToJson(const RowOptions&, bool value) { return value; }
 template <class Value>
-  requires std::is_enum_v<Value>
-Json ToJson(const RowOptions& row, Value value) {
-  return row.words[std::size_t(value)];
-}
+requires std::is_enum_v<Value> Json ToJson(const RowOptions& row, Value value) { return row.words[std::size_t(value)]; }
 template <class Value>
-  requires kHasTexture<Value>
-Json ToJson(const RowOptions& row, const Value& value) {
-  return ToJson(row, value.value);
-}
+requires kHasTexture<Value> Json ToJson(const RowOptions& row, const Value& value) { return ToJson(row, value.value); }
 
 template <class Value>
 std::string TypeOf(const std::string& name) {
@@ -81,28 +76,29 @@ void ExpectTable(const char* version, std::size_t count) {
   std::size_t found = 0;
   std::string last;
   int last_order = -1;
-  ForEachSpecified(EnterpriseParameters(), [&](const auto& row, const auto& value, bool textured, const std::string& type) {
-    if (!generic.contains(row.name)) {
-      EXPECT_STREQ(version, "2022x") << row.name;
-      return;
-    }
-    ++found;
-    const Json& entry = generic[row.name];
-    EXPECT_EQ(entry["type"], type) << row.name;
-    EXPECT_EQ(ToJson(row, value), entry["default"]) << row.name;
-    const int order = entry["uiOrder"].get<int>();
-    EXPECT_GT(order, last_order) << row.name << " after " << last;
-    last_order = order, last = row.name;
-    // Displacement is not drawn, so it has no texture.
-    EXPECT_TRUE(type == "vector" || textured == !entry.value("uniform", false)) << row.name;
-    const Json words(std::vector<std::string>(row.words.begin(), row.words.end()));
-    EXPECT_EQ(entry.value("enum", Json(std::vector<std::string>())), words);
-    if (type == "float" || type == "color") {
-      const double infinity = std::numeric_limits<double>::infinity();
-      EXPECT_EQ(double(row.range.low), Bound(entry, "min", type, type == "color" ? 0.0 : -infinity)) << row.name;
-      EXPECT_EQ(double(row.range.high), Bound(entry, "max", type, infinity)) << row.name;
-    }
-  });
+  ForEachSpecified(
+      EnterpriseParameters(), [&](const auto& row, const auto& value, bool textured, const std::string& type) {
+        if (!generic.contains(row.name)) {
+          EXPECT_STREQ(version, "2022x") << row.name;
+          return;
+        }
+        ++found;
+        const Json& entry = generic[row.name];
+        EXPECT_EQ(entry["type"], type) << row.name;
+        EXPECT_EQ(ToJson(row, value), entry["default"]) << row.name;
+        const int order = entry["uiOrder"].get<int>();
+        EXPECT_GT(order, last_order) << row.name << " after " << last;
+        last_order = order, last = row.name;
+        // Displacement is not drawn, so it has no texture.
+        EXPECT_TRUE(type == "vector" || textured == !entry.value("uniform", false)) << row.name;
+        const Json words(std::vector<std::string>(row.words.begin(), row.words.end()));
+        EXPECT_EQ(entry.value("enum", Json(std::vector<std::string>())), words);
+        if (type == "float" || type == "color") {
+          const double infinity = std::numeric_limits<double>::infinity();
+          EXPECT_EQ(double(row.range.low), Bound(entry, "min", type, type == "color" ? 0.0 : -infinity)) << row.name;
+          EXPECT_EQ(double(row.range.high), Bound(entry, "max", type, infinity)) << row.name;
+        }
+      });
   EXPECT_EQ(found, count);
 }
 

@@ -106,8 +106,7 @@ TEST(EnterpriseCore, AnisotropyNarrowsTheHighlightAcrossTheTangent) {
       const double least = 0.045 * 0.045, across = std::pow(double(r) * (1.0 - double(o)), 2.0);
       EXPECT_NEAR(s.closure.anisotropic.alpha_t, std::max(double(r) * double(r), least), 1e-6) << r << " " << o;
       EXPECT_NEAR(s.closure.anisotropic.alpha_b, std::max(across, least), 1e-6) << r << " " << o;
-      // t = t' cos(beta) - b' sin(beta), a quarter of a turn
-      EXPECT_NEAR(s.closure.anisotropic.tangent.y, -1.0, 1e-6);
+      EXPECT_NEAR(s.closure.anisotropic.tangent.y, 1.0, 1e-6) << "a quarter of a turn, counter-clockwise";
     }
   }
 }
@@ -244,7 +243,8 @@ std::vector<Layer> Layers() {
                     [](P& p, float f) {
                       p.metallic.value = 0.3f, p.clearcoat.value = f, p.sheen_color.value = glm::vec3(0.5f * f);
                       p.thin_film.value = f, p.anisotropy.value = 0.5f * f, p.translucency.value = 0.5f * f;
-                      p.transparency.value = 0.4f * f, p.flake_coverage.value = 0.5f * f, p.flake_roughness.value = 0.3f;
+                      p.transparency.value = 0.4f * f, p.flake_coverage.value = 0.5f * f,
+                      p.flake_roughness.value = 0.3f;
                     },
                     0.7});
   return layers;

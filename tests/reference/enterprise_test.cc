@@ -25,13 +25,7 @@ Scene SphereOf(const EnterpriseParameters& p) {
   Material material;
   material.model = ShadingModel::Enterprise;
   material.parameters = std::make_shared<const ModelParameters>(p);
-  Primitive sphere = Sphere(0.5f, 64, 128);
-  if (sphere.tex_coords.empty()) {
-    std::vector<glm::vec2> uv;
-    for (const glm::vec3& at : sphere.positions) uv.emplace_back(std::atan2(at.z, at.x) / 6.2831853f, at.y);
-    sphere.tex_coords.push_back(std::move(uv));
-  }
-  Add(scene, std::move(sphere), AddMaterial(scene, material));
+  Add(scene, Sphere(0.5f, 64, 128), AddMaterial(scene, material));
   return scene;
 }
 
@@ -46,7 +40,8 @@ Difference Compare(const Scene& scene, const RenderSettings& settings, const Ref
   double squares = 0.0, sum = 0.0, total = 0.0, n = 0.0;
   const double middle = settings.width / 2.0 - 0.5;
   for (std::size_t i = 0; i < film.pixels.size(); ++i) {
-    const double x = double(i % std::size_t(settings.width)) - middle, y = double(i / std::size_t(settings.width)) - middle;
+    const double x = double(i % std::size_t(settings.width)) - middle,
+                 y = double(i / std::size_t(settings.width)) - middle;
     if (std::hypot(x, y) > 0.38 * settings.width) continue;
     for (int c = 0; c < 3; ++c) {
       const double error = double(film.pixels[i][c]) - exact.pixels[i][c];

@@ -139,9 +139,8 @@ struct EnterpriseScattering {
     const TransmissionInputs<T>& t = in.transmission;
     const T amount = Clamp(t.factor, zero, one) * (one - Clamp(in.metallic, zero, one));
     const Vec3<T> passing = TransmissionLobe<T>::Passing(t.absorption, t.thickness);
-    const auto behind = [&](T absorption) HWY_ATTR {
-      return one / (T(2.0f) + T(0.75f) * Min(absorption * t.thickness, T(1e6f)));
-    };
+    const auto behind = [&](T absorption)
+                            HWY_ATTR { return one / (T(2.0f) + T(0.75f) * Min(absorption * t.thickness, T(1e6f))); };
     const Vec3<T> through{behind(t.absorption.x), behind(t.absorption.y), behind(t.absorption.z)};
     const Vec3<T> all{one, one, one};
     const Vec3<T> scattered = color * in.base_color * (all - passing) * amount;

@@ -26,8 +26,7 @@ constexpr void ForEachRow(std::type_identity<EnterpriseParameters>, const Visit&
   visit(Row("anisotropyRotation", &P::anisotropy_rotation, "of the tangent, as a share of a full turn",
             {.feature = Feature::Anisotropy}));
   visit(Row("normal", &P::normal, "of the surface", {.range = kAnyNumber, .feature = Feature::NormalTexture}));
-  visit(Row("displacement", &P::displacement, "along tangent, bitangent and normal; not drawn",
-            {.range = kAnyNumber}));
+  visit(Row("displacement", &P::displacement, "along tangent, bitangent and normal; not drawn", {.range = kAnyNumber}));
   visit(Row("translucency", &P::translucency, "the share of diffuse light that passes the surface",
             {.feature = Feature::DiffuseTransmission}));
   visit(Row("translucencyColor", &P::translucency_color, "the colour of that light",
@@ -67,8 +66,8 @@ constexpr void ForEachRow(std::type_identity<EnterpriseParameters>, const Visit&
   visit(Row("ior", &P::ior, "the index of refraction", {.range = kIor, .feature = Feature::Ior}));
   visit(Row("abbeNumber", &P::abbe_number, "of dispersion; 0: none",
             {.range = kNotNegative, .feature = Feature::Dispersion}));
-  visit(Row("attenuationColor", &P::attenuation_color, "what the medium leaves of white light after attenuationDistance",
-            {.feature = Feature::Volume}));
+  visit(Row("attenuationColor", &P::attenuation_color,
+            "what the medium leaves of white light after attenuationDistance", {.feature = Feature::Volume}));
   visit(Row("attenuationDistance", &P::attenuation_distance, "0: the medium is opaque",
             {.range = kNotNegative, .unit = "m", .feature = Feature::Volume}));
   visit(Row("subsurfaceColor", &P::subsurface_color, "of light that the medium scatters many times; black: none",
@@ -90,8 +89,8 @@ inline MaterialFeatures FeaturesOf(const EnterpriseParameters& p) {
   };
   const bool is_metal = p.metallic.value == 1.0f && !p.metallic.texture;
   const bool is_new = p.profile == EnterpriseProfile::V2025x;
-  const bool has_specular =
-      p.specular.value != 1.0f || p.specular.texture || p.specular_tint.value != glm::vec3(1.0f) || p.specular_tint.texture;
+  const bool has_specular = p.specular.value != 1.0f || p.specular.texture ||
+                            p.specular_tint.value != glm::vec3(1.0f) || p.specular_tint.texture;
   const bool transmits = !is_metal && p.transparency.value != 0.0f;
   set(!is_metal, kDiffuseLobe);
   set(p.emission_value != 0.0f && p.emission_color.value != glm::vec3(0.0f), kEmission);

@@ -31,12 +31,12 @@ namespace HWY_NAMESPACE {
 
 template <class T>
 struct FlakeInputs {
-  UvFootprint<T> at;           // TEXCOORD_0
-  T metres_per_uv{};           // 0: the surface has no texture coordinates
-  T coverage{};                // [0, 1]
-  T size_mm{};                 // 0: too small to be seen
-  T roughness{};               // [0, 1]
-  T flip_flop{};               // [0, 1]
+  UvFootprint<T> at;  // TEXCOORD_0
+  T metres_per_uv{};  // 0: the surface has no texture coordinates
+  T coverage{};       // [0, 1]
+  T size_mm{};        // 0: too small to be seen
+  T roughness{};      // [0, 1]
+  T flip_flop{};      // [0, 1]
   Vec3<T> color, flip_flop_color;
   Vec3<T> tangent, bitangent;  // unit, perpendicular to the shading normal and to one another
 };
@@ -100,9 +100,9 @@ HWY_INLINE FlakeCell<T> FlakeAt(const Vec2<T>& place) {
 // The widths of a flake: how much it is tilted, and how much it blurs.
 template <class T>
 struct FlakeWidths {
-  T whole{};         // GGX's width of both
-  T tilt{};          // GGX's width of the normals
-  T cone{};          // tangent of half the angle of the cone that a flake reflects into
+  T whole{};             // GGX's width of both
+  T tilt{};              // GGX's width of the normals
+  T cone{};              // tangent of half the angle of the cone that a flake reflects into
   T one_minus_cosine{};  // of that angle
 
   HWY_INLINE FlakeWidths() {}
@@ -124,9 +124,9 @@ struct FlakeLayer {
   Vec3<T> color, flip_flop_color;
   T flip_flop{};
   T coverage{};
-  T is_flake{};         // 1 where a flake lies at the point, else 0
-  T filtered{};         // 0: single flakes are seen, 1: their mean
-  Vec3<T> flake_normal; // of the cell at the point, unit
+  T is_flake{};          // 1 where a flake lies at the point, else 0
+  T filtered{};          // 0: single flakes are seen, 1: their mean
+  Vec3<T> flake_normal;  // of the cell at the point, unit
 
   HWY_INLINE FlakeLayer() {}  // for a layer that a material does not have
 
@@ -180,7 +180,8 @@ struct FlakeLayer {
     if (Any(mean > T(0.0f))) {
       const Vec3<T> mirrored = at.normal * (T(2.0f) * at.n_dot_v) - at.view;
       const Vec3<T> direction = Mix(mirrored, at.normal, ToNormal(widths.whole));
-      radiance += lighting.Prefiltered(direction, Sqrt(widths.whole)) * Color(at.n_dot_v) * (MeanAlbedo(at.n_dot_v) * mean);
+      radiance +=
+          lighting.Prefiltered(direction, Sqrt(widths.whole)) * Color(at.n_dot_v) * (MeanAlbedo(at.n_dot_v) * mean);
     }
     return radiance;
   }

@@ -36,7 +36,9 @@ HWY_INLINE Vec3<T> ReadEnterpriseEmission(const Source& from, const EnterprisePa
 }
 
 // The widths along and across the tangent are roughness^2 and (roughness (1 - anisotropy))^2. The lobe takes the
-// roughness across the tangent, and the strength s for which (1 - s^2) across^2 + s^2 is the width along it.
+// roughness across the tangent, and the strength s for which (1 - s^2) across^2 + s^2 is the width along it. The turn
+// is counter-clockwise about the normal, as the specification's text and its chart have it; its formula has the other
+// sign.
 template <class T, class Source>
 HWY_INLINE void ReadEnterpriseAnisotropy(const Source& from, const EnterpriseParameters& p, MaterialInputs<T>& in) {
   using P = EnterpriseParameters;
@@ -48,7 +50,7 @@ HWY_INLINE void ReadEnterpriseAnisotropy(const Source& from, const EnterprisePar
   const T narrow = across * across;
   const T square = (Max(along, narrow) - narrow) / Max(one - narrow, T(1e-6f));
   const T turn = ReadParameter<T>(from, p.anisotropy_rotation, SlotOf(&P::anisotropy_rotation)) * T(2.0f * kPi);
-  in.anisotropy.tangent = TurnedTangent<T>(from, in.normal, Cos(turn), -Sin(turn));
+  in.anisotropy.tangent = TurnedTangent<T>(from, in.normal, Cos(turn), Sin(turn) * from.Tangent().w);
   in.anisotropy.bitangent = Cross(in.normal, in.anisotropy.tangent);
   in.anisotropy.strength = Sqrt(Clamp(square, zero, one));
 }
