@@ -1,6 +1,7 @@
 // Everything a user of the library includes.
 #pragma once
 
+#include "facet/catalog.h"
 #include "facet/check.h"
 #include "facet/compare.h"
 #include "facet/digest.h"

@@ -20,10 +20,13 @@ struct Film {
   int height = 0;
   std::vector<glm::vec4> pixels;
   std::vector<Plane> planes = {};  // those of RenderSettings::planes, in its order
+  // The share of what is behind the picture that each channel shows, where that is not 1 - alpha for all three: of
+  // frames with coloured glass before a transparent background. Empty, or one for each pixel.
+  std::vector<glm::vec3> through = {};
 };
 
 // The digest of the line "facet film WIDTH HEIGHT\n" followed by the pixels: R, G, B, A as little-endian IEEE 754
-// floats, top row first. Planes do not change it.
+// floats, top row first. Planes do not change it, nor does what shows through.
 Digest HashFilm(const Film& film);
 
 // The digest of the line "facet plane NAME WIDTH HEIGHT CHANNELS TYPE\n", TYPE being f32 or u32, and the bytes of
@@ -42,7 +45,8 @@ struct DisplaySettings {
 
 // Applies exposure, tone curve, background and sRGB encoding. With `type` U8 or U16 the image is sRGB; with F32 it is
 // linear, exposed but not tone-mapped, and composited over the background, if there is one, in linear light. The image
-// has 4 channels with straight alpha, or 3 if a background makes every pixel opaque.
+// has 4 channels with straight alpha, or 3 if a background makes every pixel opaque. A background shows through
+// coloured glass by channel; alpha, of images without one, has only the mean.
 Image EncodeFilm(const Film& film, const DisplaySettings& settings, ChannelType type = ChannelType::U8);
 
 }  // namespace facet

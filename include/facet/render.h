@@ -35,6 +35,7 @@ struct RenderStats {
   double pose_seconds = 0, environment_seconds = 0, texture_seconds = 0, geometry_seconds = 0, raster_seconds = 0,
          total_seconds = 0;  // texture: with the generation of tangents; raster: all work on tiles, from coverage to
                              // resolve
+  double table_seconds = 0;  // of lobes' albedos, which the first frame of the process makes that needs them
   std::uint64_t drawables = 0;
   std::uint64_t vertices = 0;
   std::uint64_t triangles_in = 0;       // primitives of the scene: triangles, lines and points

@@ -179,6 +179,8 @@ struct RenderSettings {
                                  // to 768
   IrradianceMethod irradiance = IrradianceMethod::Convolution;
   TangentSource tangents = TangentSource::File;
+  // Whether specular lobes are widened where the normal turns within a pixel, so that small mirrors do not alias.
+  bool specular_antialiasing = true;
   int tile_size = 32;  // pixels: 8, 16, 32 or 64; does not change the image
   // Limit, in bytes, of all memory that grows with the scene or the image: the scene itself, posed copies, lists of
   // triangles, textures and the images they are decoded from, the environment, the film. A frame that needs more is

@@ -34,6 +34,8 @@ class Backdrop {
     float inside = 0.0f, accepted = 0.0f;
   };
   Mean Around(float x, float y, float deviation, float nearest) const;
+  // A deviation whose blur has all of the picture in it.
+  float Widest() const { return static_cast<float>(1 << levels_.size()); }
 
  private:
   struct Texel {

@@ -35,15 +35,18 @@ struct ThroughView {
 //
 // At each sample the layers' own light is multiplied by the tints of those in front. Where none of them refracts or
 // blurs, the sample's own opaque surface (or `background`) is seen. Otherwise shifts add up, and squares of blurs, and
-// the backdrop answers there. Not seen is what is nearer than the rearmost refracting layer: if all that would be seen
-// is, a narrower blur is tried, then half of the shift, and at last the sample's own opaque surface answers. Outside of
-// the picture there is only the background.
+// the backdrop answers there. Not seen is what is nearer than the rearmost refracting layer. What such surfaces hide is
+// not known; the holes that they leave are filled from around, with wider and wider blurs, which take over from one
+// another without a seam. Where all of the picture is nearer, the sample's own opaque surface answers. Outside of the
+// picture there is only the background.
 class ThroughCompositor {
  public:
-  // Replaces those of `pixels` (tile_size a row) that layers cover. Arguments as Compositor::Run().
+  // Replaces those of `pixels` (tile_size a row) that layers cover. Arguments as Compositor::Run(). `through`: the
+  // share of a transparent background that shows, by channel, of the same pixels.
   void Run(const ThroughView& view, const TileBuffers& tile, const ShadedFragments& opaque,
            const ShadedFragments& layers, std::span<const ScreenTriangle* const> records, const Backdrop& backdrop,
-           const std::vector<glm::vec4>& background, std::vector<glm::vec4>& pixels, EnvironmentSeen& environment);
+           const std::vector<glm::vec4>& background, std::vector<glm::vec4>& pixels, std::vector<glm::vec3>& through,
+           EnvironmentSeen& environment);
 
  private:
   // What is seen through the layers of a pixel that refract or blur, by channel.
@@ -59,14 +62,25 @@ class ThroughCompositor {
     glm::vec3 all{1.0f};       // the product of what each of them lets pass
     glm::vec3 straight{1.0f};  // the part that passes by those that refract, because they do not cover everything
   };
-  Passed WalkLayers(const ShadedFragments& layers);  // by sorted_; fills bending_
+  // A layer at a pixel. They are gathered once for all samples, because fragments of one pixel lie far apart in memory:
+  // thousands of layers would wait for each number.
+  struct LayerHere {
+    glm::vec3 light, passes, straight;  // `light`: not multiplied by alpha
+    float alpha;
+    std::uint8_t samples;
+    bool bends;
+  };
+  LayerHere Gather(const ShadedFragments& layers, std::uint32_t fragment) const;
+  Passed WalkLayers();  // by sorted_; fills bending_
   Seen Look(const ThroughView& view, const ShadedFragments& layers, int x, int y, const TileBuffers& tile,
             const Backdrop& backdrop) const;
   void SeeEnvironment(const Seen& seen, const glm::vec3& weight, std::uint32_t pixel, EnvironmentSeen& out) const;
 
   FragmentsByPixel layers_of_, opaque_of_;
-  std::vector<BlockDepth> planes_;              // of the pixel's layers
-  std::vector<Layer> sorted_;                   // of a sample, from the back; Layer::fragment is an index of `planes_`
+  std::vector<BlockDepth> planes_;  // of the pixel's layers
+  std::vector<LayerHere> here_;     // by index of `planes_`
+  // Of a sample and of the one before, from the back; Layer::fragment is an index of `planes_`.
+  std::vector<Layer> sorted_, before_;
   std::vector<std::uint32_t> bending_, known_;  // indices of `planes_`: refracting layers, from the front
   std::vector<std::uint32_t> fragment_of_;      // by index of `planes_`
 };

@@ -138,6 +138,7 @@ Json ToJson(const MaterialSummary& summary) {
     });
   }
   json["textures"] = std::move(textures);
+  if (!summary.ignored.empty()) json["ignored"] = summary.ignored;
   json["primitives"] = summary.primitives;
   return json;
 }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "material/model_parameters.h"
+#include "material/models/models.h"
 #include "scene/camera.h"
 #include "scene/pose.h"
 
@@ -51,6 +52,10 @@ MaterialSummary SummarizeMaterial(const Material& material) {
     if (!ref) continue;
     const bool transformed = ref.offset != glm::vec2(0.0f) || ref.scale != glm::vec2(1.0f) || ref.rotation != 0.0f;
     summary.textures.push_back({slot.key, ref, transformed});
+  }
+  for (const FactorFeature& factor : kFactorFeatures) {
+    const bool is_layer = (kLayerFeatures & factor.bit) != 0, reads = (InfoOf(material.model).reads & factor.bit) != 0;
+    if (is_layer && !reads && factor.is_stated(material)) summary.ignored.emplace_back(factor.name);
   }
   return summary;
 }

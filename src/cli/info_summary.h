@@ -43,6 +43,7 @@ struct TextureUse {
 struct MaterialSummary {
   const Material* material = nullptr;
   std::vector<TextureUse> textures;
+  std::vector<std::string> ignored;  // extensions' features that it states, and that its shading model does not read
   std::uint64_t primitives = 0;  // primitives that use it, by default or in a variant
 };
 

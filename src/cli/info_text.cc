@@ -138,6 +138,9 @@ std::string Describe(const MaterialSummary& summary) {
   std::vector<std::string> textures;
   for (const TextureUse& use : summary.textures) textures.push_back(Describe(use));
   text += textures.empty() ? "; no textures" : "; textures: " + Join(textures);
+  if (!summary.ignored.empty()) {
+    text += std::string("; not used because it is ") + InfoOf(material.model).word + ": " + Join(summary.ignored);
+  }
   if (summary.primitives == 0) text += "; not used";
   return text;
 }

@@ -11,6 +11,7 @@
 #include "cli/explain_command.h"
 #include "cli/hash_command.h"
 #include "cli/info_command.h"
+#include "cli/models_command.h"
 #include "cli/options.h"
 #include "cli/process.h"
 #include "cli/render_command.h"
@@ -54,6 +55,7 @@ struct Run {
   int operator()(const TextRequest& request) const { return PrintOutput(request.text), 0; }
   int operator()(const RenderOptions& options) const { return RunRender(options), 0; }
   int operator()(const InfoOptions& options) const { return RunInfo(options), 0; }
+  int operator()(const ModelsOptions& options) const { return RunModels(options), 0; }
   int operator()(const ReportOptions& options) const { return RunReport(options), 0; }
   int operator()(const ExplainOptions& options) const { return RunExplain(options), 0; }
   int operator()(const HashOptions& options) const { return RunHash(options), 0; }

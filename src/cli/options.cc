@@ -346,8 +346,27 @@ CLI::App& AddReport(CLI::App& program, ReportOptions& options) {
   return app;
 }
 
+CLI::App& AddModels(CLI::App& program, ModelsOptions& options) {
+  CommandPage page(program, "models", "Shading models beside glTF's, and their parameters", "[NAME] [OPTIONS]",
+                   std::string("facet render IN -o OUT --materials FILE gives them to a scene\n"
+                               "(docs/material-files.md).\n\n") + kExitCodes);
+  CLI::App& app = page.app();
+  app.add_option("NAME", options.name, "One of the models [all]")->option_text(" ");
+  const std::string group = "Options";
+  Add(app, group, "--chart", "FILE", "A picture of each parameter of the model NAME from\none end of its range to the other",
+      [&](const std::string& text) { options.chart = text; });
+  Add(app, group, "--compare", "FILE",
+      "A picture of the same base colours, metalnesses\nand roughnesses by all models; prints how far each\nis from glTF's",
+      [&](const std::string& text) { options.compare = text; });
+  AddFlag(app, group, "--schema", "Print the JSON schema of material files", options.schema);
+  AddFlag(app, group, "--json", "As JSON with stable keys", options.json);
+  page.End(group);
+  return app;
+}
+
 struct Limit {
   std::uint64_t operator()(const TextRequest&) const { return 0; }
+  std::uint64_t operator()(const ModelsOptions&) const { return 0; }
   std::uint64_t operator()(const DiffOptions& options) const { return options.compare.memory_limit; }
   std::uint64_t operator()(const CheckCommandOptions& options) const { return options.check.load.memory_limit; }
   template <class Options>
@@ -358,6 +377,7 @@ struct Limit {
 
 struct Threads {
   int operator()(const TextRequest&) const { return 0; }
+  int operator()(const ModelsOptions&) const { return 0; }
   int operator()(const InfoOptions&) const { return 0; }
   int operator()(const DiffOptions&) const { return 0; }
   int operator()(const VerifyOptions& options) const { return options.threads; }
@@ -397,6 +417,7 @@ Command ParseCommandLine(int argc, const char* const* argv) {
   DiffOptions diff;
   CheckCommandOptions check;
   ReportOptions report;
+  ModelsOptions models;
   AddRender(program, render);
   const CLI::App& info_app = AddInfo(program, info);
   const CLI::App& explain_app = AddExplain(program, explain);
@@ -405,6 +426,7 @@ Command ParseCommandLine(int argc, const char* const* argv) {
   const CLI::App& diff_app = AddDiff(program, diff);
   const CLI::App& check_app = AddCheck(program, check);
   const CLI::App& report_app = AddReport(program, report);
+  const CLI::App& models_app = AddModels(program, models);
 
   try {
     program.parse(static_cast<int>(arguments.size()), arguments.data());
@@ -423,6 +445,7 @@ Command ParseCommandLine(int argc, const char* const* argv) {
   if (diff_app.parsed()) return diff;
   if (check_app.parsed()) return check;
   if (report_app.parsed()) return report;
+  if (models_app.parsed()) return models;
   return render;
 }
 

@@ -10,6 +10,7 @@
 
 #include "cli/check_command.h"
 #include "cli/diff_command.h"
+#include "cli/models_command.h"
 #include "facet/load.h"
 #include "facet/report.h"
 #include "settings/render_request.h"
@@ -86,7 +87,7 @@ struct TextRequest {
 };
 
 using Command = std::variant<TextRequest, RenderOptions, InfoOptions, ExplainOptions, HashOptions, VerifyOptions,
-                             DiffOptions, CheckCommandOptions, ReportOptions>;
+                             DiffOptions, CheckCommandOptions, ReportOptions, ModelsOptions>;
 
 // --memory-limit in bytes, or 0 if it is not given.
 std::uint64_t MemoryLimitOf(const Command& command);

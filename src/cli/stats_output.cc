@@ -29,12 +29,13 @@ struct Time {
 };
 
 // The stages in order; the indented stages of the library are parts of "render".
-std::array<Time, 11> Times(const CommandStats& s) {
+std::array<Time, 12> Times(const CommandStats& s) {
   const RenderStats& r = s.render;
   return {{{"load", "load", s.load_seconds},
            {"environment_file", "environment file", s.environment_seconds},
            {"pose", "  pose", r.pose_seconds},
            {"environment", "  environment", r.environment_seconds},
+           {"albedo_tables", "  albedo tables", r.table_seconds},
            {"textures", "  textures", r.texture_seconds},
            {"geometry", "  geometry", r.geometry_seconds},
            {"raster", "  raster", r.raster_seconds},

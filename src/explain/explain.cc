@@ -108,6 +108,7 @@ double Quantile(std::vector<double>& values, double share) {
 struct Ablation {
   std::string feature, option;
   RenderSettings settings;
+  bool needs_table = false;  // a table of albedos of its own
 };
 
 std::vector<Ablation> Ablations(const RenderSettings& settings, const FramePlan& plan) {
@@ -123,12 +124,17 @@ std::vector<Ablation> Ablations(const RenderSettings& settings, const FramePlan&
     if (!plan.uses.Has(known.feature)) continue;
     const std::string word(known.word);
     add(word, "--without " + already + word).without.Add(known.feature);
+    ablations.back().needs_table = (known.feature == Feature::Anisotropy && plan.albedo_tables.anisotropic_dfg) ||
+                                   (known.feature == Feature::Sheen && plan.albedo_tables.sheen);
   }
   if (plan.environment_background) add("background", "--background transparent").background = Background::Transparent;
   if (!plan.planes.empty()) add("planes", "--planes none").planes.clear();
   if (settings.samples > 1) add("multisampling", "--samples 1").samples = 1;
   if (settings.max_anisotropy > 1 && !plan.textures.empty()) {
     add("anisotropic-filtering", "--max-anisotropy 1").max_anisotropy = 1;
+  }
+  if (settings.specular_antialiasing && (plan.environment_light || plan.punctual_lights)) {
+    add("specular-antialiasing", "--specular-antialiasing off").specular_antialiasing = false;
   }
   return ablations;
 }
@@ -156,10 +162,11 @@ class Measurement {
     cost.option = ablation.option;
     cost.bytes = BytesKept(prepared_) - BytesKept(prepared);
     cost.first_seconds = MeasurePreparation(ablation, prepared);
-    // The environment is prepared once per process, so that only the very first frame has its cost.
+    // The environment is prepared once per process, so that only the very first frame has its cost; and so are tables.
     if (prepared_.environment_bytes > 0 && prepared.environment_bytes == 0) {
       cost.first_seconds += first.environment_seconds;
     }
+    if (ablation.needs_table) cost.first_seconds += first.table_seconds;
     std::vector<double> differences;
     Repeat(kFewestPairs, kSecondsOfPairs, [&] {  // the order alternates, as it may affect the times
       const bool with_first = differences.size() % 2 == 0;

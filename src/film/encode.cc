@@ -72,6 +72,7 @@ Image EncodeFilm(const Film& film, const DisplaySettings& settings, ChannelType 
   ParallelFor(image.PixelCount(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
     EncodeTask task = whole;
     task.pixels = &film.pixels[begin].x;
+    if (!film.through.empty()) task.through = &film.through[begin].x;
     task.count = end - begin;
     task.out = image.bytes.data() + begin * whole.PixelBytes();
     EncodePixels(task);

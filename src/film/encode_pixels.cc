@@ -47,22 +47,35 @@ HWY_INLINE Vec4<Float> ExposedLight(const EncodeTask& task, const float* pixels)
   return {expose(straight.x), expose(straight.y), expose(straight.z), alpha};
 }
 
+// LaneCount() pixels.
+struct Packet {
+  const float* pixels;
+  const float* through;  // may be null
+};
+
 // Composites light over the background. Behind an empty pixel a background of exactly 1 stays exactly 1.
-HWY_INLINE Vec3<Float> InFront(const EncodeTask& task, Vec3<Float> light, Float alpha) {
-  const Float through = Float(1.0f) - alpha;
+HWY_INLINE Vec3<Float> InFront(const EncodeTask& task, const Packet& packet, Vec3<Float> light, Float alpha) {
+  const Float one(1.0f), by_alpha = one - alpha;
+  Vec3<Float> through{by_alpha, by_alpha, by_alpha};
+  if (packet.through != nullptr) {
+    Float r, g, b;
+    hn::LoadInterleaved3(FloatTag(), packet.through, r.raw, g.raw, b.raw);
+    through =
+        Select<Float>(alpha > Float(0.0f), Clamp(Vec3<Float>{r, g, b}, Float(0.0f), one), Vec3<Float>{one, one, one});
+  }
   const auto& back = task.background_linear;
-  return {light.x * alpha + Float(back[0]) * through, light.y * alpha + Float(back[1]) * through,
-          light.z * alpha + Float(back[2]) * through};
+  return {light.x * alpha + Float(back[0]) * through.x, light.y * alpha + Float(back[1]) * through.y,
+          light.z * alpha + Float(back[2]) * through.z};
 }
 
 struct Codes {
   Int r, g, b, a;
 };
 
-HWY_INLINE Codes EncodeCodes(const EncodeTask& task, const float* pixels) {
-  const Vec4<Float> light = ExposedLight(task, pixels);
+HWY_INLINE Codes EncodeCodes(const EncodeTask& task, const Packet& packet) {
+  const Vec4<Float> light = ExposedLight(task, packet.pixels);
   Vec3<Float> shown = ApplyToneMap(task.tone_map, Xyz(light));
-  if (task.opaque) shown = InFront(task, shown, light.w);
+  if (task.opaque) shown = InFront(task, packet, shown, light.w);
   const Float largest(task.type == ChannelType::U8 ? 255.0f : 65535.0f);
   // Wholly transparent pixels have no colour.
   const Mask colored = task.opaque ? light.w == light.w : light.w > Float(0.0f);
@@ -112,11 +125,11 @@ HWY_INLINE void StoreWords(const Codes& codes, bool opaque, std::size_t room, st
   StoreEach<std::uint16_t>(values, opaque, room, out);
 }
 
-HWY_INLINE void EncodeLinear(const EncodeTask& task, const float* pixels, std::size_t room, std::byte* out) {
-  const Vec4<Float> light = ExposedLight(task, pixels);
+HWY_INLINE void EncodeLinear(const EncodeTask& task, const Packet& packet, std::size_t room, std::byte* out) {
+  const Vec4<Float> light = ExposedLight(task, packet.pixels);
   constexpr float kMax = std::numeric_limits<float>::max();
   Vec3<Float> shown = Clamp(Xyz(light), Float(-kMax), Float(kMax));
-  if (task.opaque) shown = Clamp(InFront(task, shown, light.w), Float(-kMax), Float(kMax));
+  if (task.opaque) shown = Clamp(InFront(task, packet, shown, light.w), Float(-kMax), Float(kMax));
   if (!task.opaque && room >= LaneCount()) {
     // The image's bytes come from operator new, which aligns them for float.
     hn::StoreInterleaved4(shown.x.raw, shown.y.raw, shown.z.raw, light.w.raw, FloatTag(),
@@ -131,12 +144,12 @@ HWY_INLINE void EncodeLinear(const EncodeTask& task, const float* pixels, std::s
   StoreEach<float>(values, task.opaque, room, out);
 }
 
-// LaneCount() pixels, of which `room` may be written.
-HWY_INLINE void EncodePacket(const EncodeTask& task, const float* pixels, std::size_t room, std::byte* out) {
+// Pixels, of which `room` may be written.
+HWY_INLINE void EncodePacket(const EncodeTask& task, const Packet& packet, std::size_t room, std::byte* out) {
   switch (task.type) {
-    case ChannelType::U8: return StoreBytes(EncodeCodes(task, pixels), task.opaque, room, out);
-    case ChannelType::U16: return StoreWords(EncodeCodes(task, pixels), task.opaque, room, out);
-    case ChannelType::F32: return EncodeLinear(task, pixels, room, out);
+    case ChannelType::U8: return StoreBytes(EncodeCodes(task, packet), task.opaque, room, out);
+    case ChannelType::U16: return StoreWords(EncodeCodes(task, packet), task.opaque, room, out);
+    case ChannelType::F32: return EncodeLinear(task, packet, room, out);
   }
 }
 
@@ -151,22 +164,28 @@ void EncodePixels(const EncodeTask& task) {
   const std::size_t lanes = LaneCount(), pixel_size = task.PixelBytes();
   alignas(64) std::byte empty[4 * kMaxLanes * sizeof(float)];  // a packet of empty pixels
   const float zeros[4 * kMaxLanes] = {};
-  EncodePacket(task, zeros, lanes, empty);
+  EncodePacket(task, {zeros, nullptr}, lanes, empty);
   for (std::size_t y = 0; y < task.rows; ++y) {
     for (std::size_t x = 0; x < task.count; x += lanes) {
       const std::size_t count = std::min(lanes, task.count - x);
-      const float* pixels = task.pixels + 4 * (y * task.pixel_stride + x);
-      float padded[4 * kMaxLanes];
+      const std::size_t first = y * task.pixel_stride + x;
+      Packet packet{task.pixels + 4 * first, task.through != nullptr ? task.through + 3 * first : nullptr};
+      float padded[4 * kMaxLanes], padded_through[3 * kMaxLanes];
       if (count < lanes) {
         std::fill(std::begin(padded), std::end(padded), 0.0f);
-        std::copy_n(pixels, 4 * count, padded);
-        pixels = padded;
+        std::copy_n(packet.pixels, 4 * count, padded);
+        packet.pixels = padded;
+        if (packet.through != nullptr) {
+          std::fill(std::begin(padded_through), std::end(padded_through), 0.0f);
+          std::copy_n(packet.through, 3 * count, padded_through);
+          packet.through = padded_through;
+        }
       }
       std::byte* out = task.out + (y * task.out_stride + x) * pixel_size;
-      if (IsEmpty(pixels)) {
+      if (IsEmpty(packet.pixels)) {
         std::memcpy(out, empty, count * pixel_size);
       } else {
-        EncodePacket(task, pixels, count, out);
+        EncodePacket(task, packet, count, out);
       }
     }
   }

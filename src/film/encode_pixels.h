@@ -10,7 +10,8 @@
 namespace facet {
 
 struct EncodeTask {
-  const float* pixels = nullptr;  // 4 components each: linear, premultiplied
+  const float* pixels = nullptr;   // 4 components each: linear, premultiplied
+  const float* through = nullptr;  // 3 each, in rows as the pixels are: Film::through; null: 1 - alpha
   std::size_t count = 0;          // pixels in a row
   std::size_t rows = 1, pixel_stride = 0, out_stride = 0;  // pixels from one row to the next
   std::byte* out = nullptr;  // 4 components of `type` each, or 3 if `opaque`

@@ -16,7 +16,13 @@ Sha256 BeginFilmHash(int width, int height) {
 
 void CheckFilm(const Film& film) {
   const bool sized = film.width >= 0 && film.height >= 0;
-  if (sized && film.pixels.size() == std::size_t(film.width) * std::size_t(film.height)) return;
+  if (sized && film.pixels.size() == std::size_t(film.width) * std::size_t(film.height)) {
+    if (film.through.empty() || film.through.size() == film.pixels.size()) return;
+    throw Error(ErrorCode::InvalidUsage,
+                "it has " + std::to_string(film.pixels.size()) + " pixels and says of " +
+                    std::to_string(film.through.size()) + " what shows through them",
+                "film");
+  }
   throw Error(ErrorCode::InvalidUsage,
               "it has " + std::to_string(film.pixels.size()) + " pixels and says that it is " +
                   std::to_string(film.width) + " x " + std::to_string(film.height),

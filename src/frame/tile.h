@@ -28,7 +28,7 @@ struct FragmentList {
 // All zero for fragments of other surfaces.
 struct SeenThroughFragments {
   static constexpr std::size_t kArrays = 10;
-  std::vector<float> tint[3], shift_x[3], shift_y[3], blur;
+  PageVector<float> tint[3], shift_x[3], shift_y[3], blur;
 
   void Resize(std::size_t count) {
     for (auto* channels : {tint, shift_x, shift_y}) {
@@ -38,10 +38,10 @@ struct SeenThroughFragments {
   }
 };
 
-// Fragments with their colours: linear radiance, not multiplied by alpha.
+// Fragments with their colours: linear radiance, not multiplied by alpha. Resize() as for FragmentList.
 struct ShadedFragments {
   FragmentList list;
-  std::vector<float> red, green, blue, alpha;
+  PageVector<float> red, green, blue, alpha;
   bool has_seen_through = false;
   SeenThroughFragments seen_through;  // sized if has_seen_through
 

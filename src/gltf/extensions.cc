@@ -9,6 +9,49 @@
 #include "material/parameters.h"
 
 namespace facet::gltf {
+namespace {
+
+// Where an extension is used: the first place, and how many more there are.
+struct Uses {
+  std::string place;
+  std::size_t more = 0;
+};
+
+void CollectUnlisted(const Context& context, const Json& value, const Place& place, std::map<std::string, Uses>& out) {
+  if (value.is_array()) {
+    for (std::size_t i = 0; i < value.size(); ++i) CollectUnlisted(context, value[i], Place(place, i), out);
+  }
+  if (!value.is_object()) return;
+  for (const auto& item : value.items()) {
+    const Place item_place(place, item.key());
+    CollectUnlisted(context, item.value(), item_place, out);
+    if (item.key() != "extensions" || !item.value().is_object()) continue;
+    for (const auto& extension : item.value().items()) {
+      // A material's extras may have become these.
+      if (context.IsUsed(extension.key()) || IsEnterpriseExtension(extension.key())) continue;
+      const auto [uses, is_new] = out.try_emplace(extension.key());
+      if (is_new) {
+        uses->second.place = Place(item_place, extension.key()).Path();
+      } else {
+        ++uses->second.more;
+      }
+    }
+  }
+}
+
+}  // namespace
+
+void WarnOfUnlistedExtensions(Context& context) {
+  std::map<std::string, Uses> unlisted;
+  CollectUnlisted(context, context.document.root, context.place, unlisted);
+  for (const auto& [name, uses] : unlisted) {
+    std::string what = IsSupported(name) ? "is read, although extensionsUsed does not list it"
+                                         : "ignored: is not supported, and extensionsUsed does not list it";
+    if (uses.more > 0)
+      what += " (and in " + std::to_string(uses.more) + (uses.more == 1 ? " more place)" : " more places)");
+    context.warnings.Add(uses.place, Shortened(what, kMostOfMessage));
+  }
+}
 
 bool IsSupported(const std::string& extension) {
   static const char* const kSupported[] = {

@@ -13,6 +13,8 @@
 #include "gltf/nodes.h"
 #include "gltf/pictures.h"
 #include "gltf/primitive.h"
+#include "material/model_parameters.h"
+#include "scene/topology.h"
 
 namespace facet {
 namespace gltf {
@@ -90,6 +92,36 @@ void ReadMeshes(Context& context, BufferStore& buffers, AccessorReader& reader, 
   }
 }
 
+// Warns of a texture that shows and names a set of texture coordinates that the geometry lacks.
+void WarnOfMissingSets(const Scene& scene, const Primitive& primitive, int material, const Place& place) {
+  if (material < 0) return;
+  const Material& reader = scene.materials[std::size_t(material)];
+  const bool on_surface = ClassOf(primitive.topology) == PrimitiveClass::Triangles || !primitive.normals.empty();
+  ForEachSlotOf(reader.model, FeaturesOf(reader, on_surface), [&](const SlotInfo& info) {
+    const auto set = std::size_t(TextureIn(reader, info).tex_coord);
+    if (set < primitive.tex_coords.size() && !primitive.tex_coords[set].empty()) return;
+    Place(place, "attributes")
+        .Warn("TEXCOORD_" + std::to_string(set) + " is missing, by which the " + info.name + " of materials[" +
+              std::to_string(material) + "] is read; its texel at 0, 0 is used everywhere");
+  });
+}
+
+void WarnOfMissingSets(const Context& context, const Shown& shown, const Scene& scene) {
+  const Place list_place(context.place, "meshes");
+  for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
+    if (!shown.meshes[m].shown) continue;
+    const Place mesh_place(list_place, m), primitives_place(mesh_place, "primitives");
+    for (std::size_t p = 0; p < scene.meshes[m].primitives.size(); ++p) {
+      const Primitive& primitive = scene.meshes[m].primitives[p];
+      const Place place(primitives_place, context.primitives_read[m][p]);
+      WarnOfMissingSets(scene, primitive, primitive.material, place);
+      for (const int material : primitive.variant_materials) {
+        if (material != primitive.material) WarnOfMissingSets(scene, primitive, material, place);
+      }
+    }
+  }
+}
+
 void ReadAsset(Context& context) {
   const Json& asset = context.document.root["asset"];
   const Place place(context.place, "asset");
@@ -109,6 +141,7 @@ LoadedScene Load(const std::filesystem::path& path, const LoadOptions& options) 
   context.document = ParseDocument(container.json, context.place);
   ReadAsset(context);
   ReadExtensions(context);
+  WarnOfUnlistedExtensions(context);
   context.Charge(container.json.size(), 1, context.place);  // names
 
   LoadedScene loaded;
@@ -120,6 +153,7 @@ LoadedScene Load(const std::filesystem::path& path, const LoadOptions& options) 
   ReadMaterials(context, scene);
   ReadVariants(context, scene);
   ReadMeshes(context, buffers, reader, shown, scene);
+  WarnOfMissingSets(context, shown, scene);
   ReadSkins(context, reader, shown, scene);
   const std::vector<bool> usable_cameras = ReadCameras(context, scene);
   ReadLights(context, scene);

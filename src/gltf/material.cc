@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 
@@ -13,6 +14,24 @@
 
 namespace facet::gltf {
 namespace {
+
+// The properties of each extension of materials.
+const std::map<std::string_view, std::set<std::string_view>>& ExtensionProperties() {
+  static const auto properties = [] {
+    std::map<std::string_view, std::set<std::string_view>> all;
+    for (const ModelInfo& model : kModels) {
+      if (model.gltf_extension != nullptr) all[model.gltf_extension];
+    }
+    ForEachParameter([&](const auto& parameter) {
+      const std::string_view group = parameter.gltf_group != nullptr ? parameter.gltf_group : "";
+      if (!IsExtension(group)) return;
+      const std::size_t dot = group.find('.');  // an object in the extension has it
+      all[group.substr(0, dot)].insert(dot == group.npos ? parameter.gltf_name : group.substr(dot + 1));
+    });
+    return all;
+  }();
+  return properties;
+}
 
 class MaterialReader {
  public:
@@ -33,6 +52,7 @@ class MaterialReader {
       if (name == nullptr) return ReadValue(object_, place_, parameter, value);
       if (const Json* group = Group(name)) ReadValue(*group, PlaceOf(name), parameter, value);
     });
+    WarnOfUnknownProperties();
     if (IsEnterprise(object_, place_)) {
       const auto read_texture = [this](const Json& info, const Place& where) { return ReadRef(info, where); };
       ReadEnterprise(object_, place_, read_texture, out);
@@ -53,6 +73,24 @@ class MaterialReader {
     }
     return known->second = (IsExtension(name) ? ExtensionOf : LenientObject)(object_, name.c_str(), place_);
   }
+  // What an extension does not have is most likely misspelt.
+  void WarnOfUnknownProperties() const {
+    const Json* const extensions = Find(object_, "extensions");
+    if (extensions == nullptr || !extensions->is_object()) return;
+    for (const auto& [name, object] : extensions->items()) {
+      const auto known = ExtensionProperties().find(name);
+      if (known == ExtensionProperties().end() || !object.is_object()) continue;
+      std::string list;
+      for (const std::string_view property : known->second) list += (list.empty() ? "" : ", ") + std::string(property);
+      const Place place = PlaceOf(name);
+      for (const auto& item : object.items()) {
+        if (item.key() == "extensions" || known->second.contains(item.key())) continue;
+        Place(place, item.key())
+            .Warn("ignored: " + name + " has no such property, " + (list.empty() ? "and no other" : "but " + list));
+      }
+    }
+  }
+
   Place PlaceOf(std::string_view group) const { return {IsExtension(group) ? extensions_place_ : place_, group}; }
 
   // The nearest number of the range, with a warning if it is another one.

@@ -21,14 +21,16 @@ void RefuseForeign(std::span<const std::byte> bytes, const std::string& name) {
   throw Error(ErrorCode::InvalidInput, "not a picture, but " + foreign->what, name, foreign->hint);
 }
 
-Image DecodeTexture(std::span<const std::byte> bytes, const std::string& name) {
+Image DecodeTexture(std::span<const std::byte> bytes, const std::string& name,
+                    ImageFormats formats = ImageFormats::Gltf) {
   if (!ProbeImage(bytes)) RefuseForeign(bytes, name);
-  return DecodeImage(bytes, name, ImageFormats::Gltf);
+  return DecodeImage(bytes, name, formats);
 }
 
-void DecodeTextureRows(std::span<const std::byte> bytes, const std::string& name, const RowReceiver& receive) {
+void DecodeTextureRows(std::span<const std::byte> bytes, const std::string& name, const RowReceiver& receive,
+                       ImageFormats formats = ImageFormats::Gltf) {
   if (!ProbeImage(bytes)) RefuseForeign(bytes, name);
-  DecodeImageRows(bytes, name, receive, ImageFormats::Gltf);
+  DecodeImageRows(bytes, name, receive, formats);
 }
 
 // An encoded image in memory: a slice of the glTF file, or the bytes of a data URI.
@@ -49,14 +51,14 @@ class EncodedImage final : public ImageSource {
 // An image in a separate file, which is read when it is decoded.
 class ImageFile final : public ImageSource {
  public:
-  explicit ImageFile(std::filesystem::path path) : path_(std::move(path)) {}
+  ImageFile(std::filesystem::path path, ImageFormats formats) : path_(std::move(path)), formats_(formats) {}
   Image Decode() const override {
     const Content content(path_);
-    return DecodeTexture(content.bytes.Span(), Name());
+    return DecodeTexture(content.bytes.Span(), Name(), formats_);
   }
   void DecodeRows(const RowReceiver& receive) const override {
     const Content content(path_);
-    DecodeTextureRows(content.bytes.Span(), Name(), receive);
+    DecodeTextureRows(content.bytes.Span(), Name(), receive, formats_);
   }
   std::string Name() const override { return path_.string(); }
   std::optional<ImageHeader> Header() const override;
@@ -74,6 +76,7 @@ class ImageFile final : public ImageSource {
   };
 
   std::filesystem::path path_;
+  ImageFormats formats_;
 };
 
 std::optional<ImageHeader> ImageFile::Header() const {
@@ -124,7 +127,7 @@ std::shared_ptr<const ImageSource> OpenSource(Context& context, BufferStore& buf
     const bool is_there = std::filesystem::exists(path, ignored);
     Fail(place, "the image file \"" + path.string() + (is_there ? "\" is not a regular file" : "\" does not exist"));
   }
-  return std::make_shared<ImageFile>(std::move(path));
+  return std::make_shared<ImageFile>(std::move(path), ImageFormats::Gltf);
 }
 
 Wrap WrapOf(int value) {
@@ -169,7 +172,7 @@ void WarnOfNoImage(const Json& object, const Place& place) {
 }  // namespace
 
 std::shared_ptr<const ImageSource> OpenPicture(const std::filesystem::path& path) {
-  return std::make_shared<ImageFile>(path);
+  return std::make_shared<ImageFile>(path, ImageFormats::Any);
 }
 
 std::vector<bool> ReadImages(Context& context, BufferStore& buffers, Scene& scene) {

@@ -11,8 +11,9 @@ namespace facet::gltf {
 
 class Warnings {
  public:
-  // Adds a warning. `place` is like "accessors[3].count", or empty. The same mistake in several places becomes one line
-  // that names the first and counts the others, because exporters repeat their mistakes.
+  // Adds a warning. `place` is like "accessors[3].count", or empty. The same mistake in several places, whatever the
+  // numbers that the warning states, becomes one line that has the first and counts the others, because exporters
+  // repeat their mistakes.
   void Add(const std::string& place, const std::string& what);
 
   // All lines, in the order of the first warnings. If there are more than kMostLines, the last line states the number

@@ -29,6 +29,17 @@ HWY_INLINE Vec3<T> PrefilteredRadiance(const EnvironmentMap& map, Vec3<T> direct
   return Mix(level(at.index), level(at.index + IntOf<T>(1)), at.fraction);
 }
 
+// The roughness at which the mixture of two levels is as wide as the lobe of `perceptual_roughness`, by the mean square
+// of their alphas. It is lower, because mixtures are wider than what lies between: halfway from a mirror to the first
+// rough level half of that level's square is in the mixture, and a sixteenth in the lobe.
+template <class T>
+HWY_INLINE T RoughnessOfMixture(T perceptual_roughness) {
+  constexpr float kLast = static_cast<float>(EnvironmentMap::kLevels - 1);
+  const auto fourth = [](T x) HWY_ATTR { return (x * x) * (x * x); };
+  const T at = perceptual_roughness * T(kLast), level = Floor(at), first = fourth(level);
+  return (level + (fourth(at) - first) / (fourth(level + T(1.0f)) - first)) * T(1.0f / kLast);
+}
+
 // Irradiance on a surface facing `normal`, divided by pi.
 template <class T>
 HWY_INLINE Vec3<T> IrradianceOverPi(const EnvironmentMap& map, Vec3<T> normal) {

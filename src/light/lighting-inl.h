@@ -9,7 +9,7 @@
 
 #include "light/environment-inl.h"
 #include "light/lighting.h"
-#include "material/lobes/lobe-inl.h"
+#include "material/lobes/microfacets-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace facet {
@@ -158,6 +158,17 @@ class LightingView {
   HWY_INLINE Vec3<T> Prefiltered(Vec3<T> direction, T perceptual_roughness) const {
     return PrefilteredRadiance(*data_->environment, ToEnvironment(direction), perceptual_roughness) *
            T(data_->environment_intensity);
+  }
+  // The same of a lobe whose square of alpha is greater by `footprint_alpha2`. Between levels the mixture is wider than
+  // the lobe to begin with, often by more than the footprint.
+  HWY_INLINE Vec3<T> Prefiltered(Vec3<T> direction, T perceptual_roughness, T footprint_alpha2) const {
+    const MaskOf<T> wider = IsWidened(perceptual_roughness, footprint_alpha2);
+    T roughness = perceptual_roughness;
+    if (Any(wider)) {
+      const T needed = RoughnessOfMixture(WidenedRoughness(perceptual_roughness, footprint_alpha2));
+      roughness = Select(wider, Max(perceptual_roughness, needed), perceptual_roughness);
+    }
+    return Prefiltered(direction, roughness);
   }
   // The environment as a background: from its image if that was kept (keep_image), else from its sharpest map.
   HWY_INLINE Vec3<T> Background(Vec3<T> direction) const {

@@ -6,7 +6,8 @@
 //     with a thin film       lobes/iridescence-inl.h
 //   diffuse reflection       lobes/diffuse-inl.h
 //   diffuse transmission     lobes/diffuse_transmission-inl.h
-//   transmission, volume     lobes/transmission-inl.h
+//   transmission             lobes/transmission-inl.h
+//   volume behind both       lobes/volume-inl.h
 //
 // Each layer passes down exactly the share of light that it does not reflect towards the view. The core (Khronos, glTF
 // 2.0 Specification, appendix B) is reciprocal; a layer over it is not, as in the extensions' own texts. A white base
@@ -34,6 +35,7 @@
 #include "material/lobes/sheen-inl.h"
 #include "material/lobes/specular-inl.h"
 #include "material/lobes/transmission-inl.h"
+#include "material/lobes/volume-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace facet {
@@ -54,6 +56,9 @@ struct MaterialInputs {
   Vec3<T> normal{};          // unit, shading, on the viewer's side
   T occlusion{};           // 1 + strength * (texel - 1); 1 where there is none
   Vec3<T> emissive{};      // radiance
+  // Added to the square of alpha of the reflecting lobes, against aliasing: Surface::footprint_alpha2. What passes
+  // through a surface is not blurred, because a thin wall does not deviate light, however it is curved.
+  T footprint_alpha2{};
   MaterialFeatures lobes = kDiffuseLobe;  // those that the material has besides the specular lobe
   // Each of the following is read only if `lobes` has its bit.
   Interface<T> dielectric;  // kSpecular or kIor
@@ -61,6 +66,7 @@ struct MaterialInputs {
   SheenInputs<T> sheen;
   FilmInputs<T> film;
   AnisotropyInputs<T> anisotropy;
+  VolumeInputs<T> volume;
   TransmissionInputs<T> transmission;
   DiffuseTransmissionInputs<T> diffuse_transmission;
 };
@@ -72,6 +78,7 @@ struct MaterialInputs {
 //   bool HasEnvironment() const;
 //   Vec3<T> IrradianceOverPi(Vec3<T> normal) const;                   // cosine-weighted mean radiance
 //   Vec3<T> Prefiltered(Vec3<T> direction, T perceptual_roughness) const;
+//   Vec3<T> Prefiltered(Vec3<T> direction, T perceptual_roughness, T footprint_alpha2) const;  // of a widened lobe
 //   SpecularAlbedo<T> Dfg(T n_dot_v, T perceptual_roughness) const;
 //   SpecularAlbedo<T> DfgAverage(T perceptual_roughness) const;       // the same, averaged: 2 * integral of mu d mu
 //   SpecularAlbedo<T> AnisotropicDfg(T n_dot_v, T t_dot_v, T perceptual_roughness, T strength) const;
@@ -94,25 +101,30 @@ struct Closure {
   HWY_INLINE Closure(const MaterialInputs<T>& in, const Vec3<T>& view, const Lighting& lighting)
       : at{in.normal, view, Clamp(Dot(in.normal, view), T(kMinNDotV), T(1.0f))},
         lobes(in.lobes),
-        microfacets(in.perceptual_roughness) {
+        microfacets(WidenedRoughness(in.perceptual_roughness, in.footprint_alpha2)) {
     const T zero(0.0f), one(1.0f);
     const Vec3<T> base{Clamp(in.base_color.x, zero, one), Clamp(in.base_color.y, zero, one),
                        Clamp(in.base_color.z, zero, one)};
     const T metallic = Clamp(in.metallic, zero, one);
-    if (Has(kAnisotropy)) anisotropic = AnisotropicMicrofacets<T>(in.perceptual_roughness, in.anisotropy);
+    if (Has(kAnisotropy)) {
+      anisotropic =
+          AnisotropicMicrofacets<T>(WidenedRoughness(in.perceptual_roughness, in.footprint_alpha2), in.anisotropy);
+    }
     specular = MakeSpecular(in, base, metallic, lighting);
     diffuse = DiffuseLobe<T>(base, metallic, specular);
     if (Has(kTransmission)) diffuse.color = diffuse.color * (one - in.transmission.factor);
     if (Has(kDiffuseTransmission)) {
       diffuse_transmission = DiffuseTransmissionLobe<T>(in.diffuse_transmission, metallic, diffuse);
       if (Has(kTransmission)) diffuse_transmission.color = diffuse_transmission.color * (one - in.transmission.factor);
+      if (Has(kVolume)) diffuse_transmission.color = diffuse_transmission.color * in.volume.Passing();
     }
     if constexpr ((kPossible & kSheen) != 0) {
       if (Has(kSheen)) sheen = SheenLobe<T>(at, in.sheen, lighting);
     }
-    if (Has(kClearcoat)) clearcoat = ClearcoatLobe<T>(in.clearcoat, view, lighting);
+    if (Has(kClearcoat)) clearcoat = ClearcoatLobe<T>(in.clearcoat, in.footprint_alpha2, view, lighting);
     if (Has(kTransmission)) {
-      transmission = TransmissionLobe<T>(in.transmission, Has(kVolume), base, metallic, in.perceptual_roughness);
+      transmission = TransmissionLobe<T>(in.transmission, at, base, metallic, in.perceptual_roughness, lighting);
+      if (Has(kVolume)) transmission.color = transmission.color * in.volume.Passing();
       transmission.color = transmission.color * diffuse.left_for_view;
       if (Has(kSheen)) transmission.color = transmission.color * sheen.EnergyLeft();
       if (Has(kClearcoat)) transmission.color = transmission.color * clearcoat.EnergyLeft();
@@ -188,16 +200,17 @@ template <class T, MaterialFeatures kPossible, class Lighting>
 HWY_INLINE Vec3<T> EvaluateEnvironment(const Closure<T, kPossible>& c, const MaterialInputs<T>& in,
                                        const Lighting& lighting) {
   const Vec3<T> prefiltered =
-      c.Has(kAnisotropy) ? c.anisotropic.Prefiltered(c.at, in.perceptual_roughness, lighting)
-                         : lighting.Prefiltered(c.microfacets.DominantDirection(c.at), in.perceptual_roughness);
+      c.Has(kAnisotropy)
+          ? c.anisotropic.Prefiltered(c.at, WidenedRoughness(in.perceptual_roughness, in.footprint_alpha2), lighting)
+          : lighting.Prefiltered(c.microfacets.DominantDirection(c.at), in.perceptual_roughness, in.footprint_alpha2);
   EnvironmentTerms<T> sum = c.specular.Environment(prefiltered);
   if (c.Has(kDiffuseLobe)) sum.of_irradiance_over_pi += c.diffuse.Environment().of_irradiance_over_pi;
   Vec3<T> radiance = sum.radiance + lighting.IrradianceOverPi(c.at.normal) * sum.of_irradiance_over_pi;
   if (c.Has(kDiffuseTransmission)) radiance += c.diffuse_transmission.Environment(c.at, c.diffuse, lighting);
   if (c.Has(kSheen)) radiance = radiance * c.sheen.EnergyLeft() + c.sheen.Environment(c.at, lighting).radiance;
   if (c.Has(kClearcoat)) {
-    radiance =
-        radiance * c.clearcoat.EnergyLeft() + c.clearcoat.Environment(in.clearcoat.perceptual_roughness, lighting);
+    radiance = radiance * c.clearcoat.EnergyLeft() +
+               c.clearcoat.Environment(in.clearcoat.perceptual_roughness, in.footprint_alpha2, lighting);
   }
   return radiance;
 }

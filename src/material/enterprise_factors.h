@@ -7,7 +7,7 @@
 namespace facet {
 
 // The reflectance at normal incidence, the indices of refraction for red, green and blue, the absorption per metre and
-// the thickness, in metres. `p`: of a plan (plan/enterprise_measures.h), in which the thickness is in metres.
+// the thickness. `p`: of a plan (plan/enterprise_measures.h), in which the thickness is known.
 //
 // Red, green and blue are the Fraunhofer lines C, d and F, between which the Abbe number is defined, by Cauchy's
 // equation with two terms. Light that the medium scatters forwards goes on as if it had not been scattered: the

@@ -8,6 +8,8 @@
 //   Vec3<T> InterpolatedNormal() const;                  // not normalised
 //   Vec4<T> Tangent() const;                             // not normalised; w is the handedness
 //   UvFootprint<T> FirstUv() const;                      // TEXCOORD_0, of materials with kFlakes
+//   T MetresPerUnit() const;                             // Surface::metres_per_unit, if Has(kVolume)
+//   T FootprintAlpha2() const;                           // Surface::footprint_alpha2
 
 #if defined(FACET_MATERIAL_READ_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef FACET_MATERIAL_READ_INL_H_
@@ -125,16 +127,10 @@ HWY_INLINE AnisotropyInputs<T> ReadAnisotropy(const Source& from, const Vec3<T>&
 }
 
 template <class T, class Source>
-HWY_INLINE TransmissionInputs<T> ReadTransmission(const Source& from, bool has_volume) {
+HWY_INLINE VolumeInputs<T> ReadVolume(const Source& from) {
   const MaterialFactors& f = from.Factors();
-  TransmissionInputs<T> in{};
-  in.factor = ReadFactor<kR, T>(from, f.transmission, Slot::Transmission);
-  in.ior = {T(f.ior[0]), T(f.ior[1]), T(f.ior[2])};
-  if (has_volume) {
-    in.thickness = ReadFactor<kG, T>(from, f.thickness, Slot::Thickness);
-    in.absorption = {T(f.absorption[0]), T(f.absorption[1]), T(f.absorption[2])};
-  }
-  return in;
+  const T thickness = ReadFactor<kG, T>(from, f.thickness, Slot::Thickness) * from.MetresPerUnit();
+  return {Min(thickness, T(1e30f)), {T(f.absorption[0]), T(f.absorption[1]), T(f.absorption[2])}};
 }
 
 // `base`: the base colour with its alpha. `features`: of the material. `kPossible`: those of its lobes that are read.
@@ -169,7 +165,11 @@ HWY_INLINE MaterialInputs<T> ReadInputs(const Source& from, const Vec4<T>& base,
   }
   if (has(kIridescence)) in.film = ReadFilm<T>(from);
   if (has(kAnisotropy)) in.anisotropy = ReadAnisotropy<T>(from, in.normal);
-  if (has(kTransmission)) in.transmission = ReadTransmission<T>(from, has(kVolume));
+  if (has(kVolume)) in.volume = ReadVolume<T>(from);
+  if (has(kTransmission)) {
+    in.transmission = {ReadFactor<kR, T>(from, f.transmission, Slot::Transmission),
+                       {T(f.ior[0]), T(f.ior[1]), T(f.ior[2])}};
+  }
   if (has(kDiffuseTransmission)) {
     in.diffuse_transmission = {ReadFactor<kA, T>(from, f.diffuse_transmission, Slot::DiffuseTransmission),
                                ReadColor<T>(from, f.diffuse_transmission_color, Slot::DiffuseTransmissionColor)};

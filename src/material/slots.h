@@ -75,9 +75,11 @@ inline bool HasSpecular(const Material& m) {
 inline bool HasIor(const Material& m) { return !IsMetal(m) && m.ior != 1.5f; }
 inline bool Transmits(const Material& m) { return !IsMetal(m) && m.transmission_factor != 0.0f; }
 inline bool TransmitsDiffusely(const Material& m) { return !IsMetal(m) && m.diffuse_transmission_factor != 0.0f; }
-// Only light that is seen through the surface is refracted and absorbed.
-inline bool HasVolume(const Material& m) { return m.thickness_factor != 0.0f && Transmits(m); }
-inline bool Disperses(const Material& m) { return HasVolume(m) && m.dispersion != 0.0f; }
+// Only light that passes the surface is absorbed, and only what is seen through it is refracted.
+inline bool HasVolume(const Material& m) {
+  return m.thickness_factor != 0.0f && (Transmits(m) || TransmitsDiffusely(m));
+}
+inline bool Disperses(const Material& m) { return m.thickness_factor != 0.0f && Transmits(m) && m.dispersion != 0.0f; }
 inline bool IsIridescent(const Material& m) { return m.iridescence_factor != 0.0f; }
 inline bool IsAnisotropic(const Material& m) { return m.anisotropy_strength != 0.0f; }
 

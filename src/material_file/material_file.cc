@@ -1,4 +1,6 @@
 // ApplyMaterialFile() of facet/load.h: materials of a scene get other shading models (docs/material-files.md).
+#include "material_file/material_file.h"
+
 #include <fnmatch.h>
 
 #include <algorithm>
@@ -86,6 +88,18 @@ void MakeNeutral(float& value) { value = 1.0f; }
 void MakeNeutral(glm::vec3& value) { value = glm::vec3(1.0f); }
 void MakeNeutral(glm::vec4& value) { value = glm::vec4(1.0f); }
 
+// Refuses names that are no parameters of the model. `textures`: may be null.
+template <class Block>
+void RefuseUnknown(const JsonValue& parameters, const JsonValue* textures) {
+  std::vector<const char*> all, textured;
+  ForEachRow(std::type_identity<Block>(), [&]<class Value>(const ModelParameter<Block, Value>& parameter) {
+    all.push_back(parameter.name);
+    if (kHasTexture<Value>) textured.push_back(parameter.name);
+  });
+  parameters.ExpectObject(all);
+  if (textures != nullptr) textures->ExpectObject(textured);
+}
+
 // --- The file -------------------------------------------------------------------------------------------------------
 
 class MaterialFile {
@@ -101,7 +115,7 @@ class MaterialFile {
     report_.file_bytes = bytes.size;
     report_.files.push_back(path_);
 
-    const JsonValue root{json, {}, name_};
+    const JsonValue root{json, StrictJson::json_pointer(), name_};
     root.ExpectObject(std::array{"$schema", "materials"});
     if (!root.Has("materials")) root.Fail("has no list \"materials\"");
     const JsonValue entries = root["materials"];
@@ -212,7 +226,7 @@ class MaterialFile {
       return entry.Has(key) ? entry[key] : JsonValue{none, entry.pointer / key, name_};
     };
     const JsonValue parameters = member("parameters"), textures = member("textures");
-    RefuseUnknown<Block>(parameters, textures);
+    RefuseUnknown<Block>(parameters, &textures);
     states_alpha_mode_ = false;
     ForEachParameterOf(block, [&]<class Value>(const auto& parameter, Value& value) {
       const bool has_value = parameters.Has(parameter.name);
@@ -238,17 +252,6 @@ class MaterialFile {
     const auto* const enterprise = std::get_if<EnterpriseParameters>(&parameters);
     if (enterprise == nullptr || enterprise->displacement == glm::vec3(0.0f)) return;
     report_.warnings.push_back(entry.Place() + ": displacement is not drawn");
-  }
-
-  template <class Block>
-  static void RefuseUnknown(const JsonValue& parameters, const JsonValue& textures) {
-    std::vector<const char*> all, textured;
-    ForEachRow(std::type_identity<Block>(), [&]<class Value>(const ModelParameter<Block, Value>& parameter) {
-      all.push_back(parameter.name);
-      if (kHasTexture<Value>) textured.push_back(parameter.name);
-    });
-    parameters.ExpectObject(all);
-    textures.ExpectObject(textured);
   }
 
   void ReadCommon(const JsonValue& entry, Material& changes) {
@@ -348,6 +351,19 @@ class MaterialFile {
 };
 
 }  // namespace
+
+void StateParameters(const std::string& json, const std::string& name, ModelParameters& parameters) {
+  const StrictJson parsed = ParseStrictJson(json, name);
+  const JsonValue values{parsed, StrictJson::json_pointer(), name};
+  std::visit(
+      [&]<class Block>(Block& block) {
+        RefuseUnknown<Block>(values, nullptr);
+        ForEachParameterOf(block, [&](const auto& parameter, auto& value) {
+          if (values.Has(parameter.name)) ReadValue(values[parameter.name], parameter, value);
+        });
+      },
+      parameters);
+}
 
 LoadReport ApplyMaterialFile(Scene& scene, const std::filesystem::path& file, const LoadOptions& options) {
   MemoryBudget budget(options.memory_limit);

@@ -185,7 +185,9 @@ FilmError ErrorOf(const Film& film, const Film& reference) {
 
 Film Reduced(const Film& film, int longest) {
   const int n = Divisor(film.width, film.height, longest);
-  return {film.width / n, film.height / n, BoxMeans(film.pixels.data(), film.width, film.height, n)};
+  Film reduced{film.width / n, film.height / n, BoxMeans(film.pixels.data(), film.width, film.height, n)};
+  if (!film.through.empty()) reduced.through = BoxMeans(film.through.data(), film.width, film.height, n);
+  return reduced;
 }
 
 FlipJudge::FlipJudge(const ReferenceFilm& reference, const Image& encoded)

@@ -19,7 +19,7 @@ MeshMeasures MeasureMesh(const Drawable& drawable);
 // agree in them share a plan.
 using EnterpriseMeasures = std::array<float, 3>;
 
-// As a plan needs them: emission in lm/m2, the thickness in metres, the scale measured. Zeros for what the parameters
+// As a plan needs them: emission in lm/m2, thickness and scale measured. Zeros for what the parameters
 // do not use, so that meshes are measured only where it shows.
 EnterpriseMeasures MeasuresFor(const EnterpriseParameters& p, const Drawable& drawable);
 EnterpriseParameters WithMeasures(EnterpriseParameters p, const EnterpriseMeasures& measures);

@@ -22,6 +22,7 @@ struct FrameMaterial {
   const FragmentShader* shader = nullptr;                // replaces the model; null: none
   bool vertex_colors = false;
   AlphaMode alpha_mode = AlphaMode::Opaque;
+  bool specular_antialiasing = true;
   bool is_seen_through = false;  // it has transmission, and its shader computes what that does
   MaterialFactors factors;
   const ModelParameters* parameters = nullptr;  // of models that are not glTF's; not owned

@@ -37,7 +37,8 @@ class Planner {
   }
 
   FramePlan plan;
-  FeatureSet stated;  // features that drawn materials state, whether or not they are visible
+  FeatureSet stated;         // features that drawn materials state, whether or not they are visible
+  FeatureSet stated_by_lit;  // those that lit ones do
 
  private:
   static EnterpriseMeasures Measures(const Material& material, const Drawable& drawable) {
@@ -58,6 +59,7 @@ class Planner {
     FrameMaterial& f = planned.frame;
     f.features = FeaturesOf(material, on_surface);
     f.vertex_colors = colors;
+    f.specular_antialiasing = settings_.specular_antialiasing;
     f.alpha_mode = material.alpha_mode;
     f.factors = FactorsOf(material);
     planned.parameters = material.parameters;
@@ -74,8 +76,12 @@ class Planner {
     f.is_seen_through = f.Has(kTransmission) && (f.shader == nullptr || f.shader->Transmits());
     if (!f.is_seen_through) {
       // A user's shader that knows nothing of what is behind a surface gets the material without transmission.
-      f.features &= ~(kTransmission | kVolume | kDispersion);
-      if (f.parameters == nullptr) f.features &= ~(BitOf(Slot::Transmission) | BitOf(Slot::Thickness));
+      f.features &= ~(kTransmission | kDispersion);
+      if (f.parameters == nullptr) f.features &= ~BitOf(Slot::Transmission);
+      if (!f.Has(kDiffuseTransmission)) {
+        f.features &= ~kVolume;
+        if (f.parameters == nullptr) f.features &= ~BitOf(Slot::Thickness);
+      }
     }
     if (f.Has(kFlakes)) f.first_uv_slot = UvSlotFor(f, 0);
     ForEachSlotOf(f.model, f.features, [&](const SlotInfo& slot) { BindTexture(material, slot, planned); });
@@ -126,6 +132,7 @@ class Planner {
     const auto disable = [&](Feature feature, bool is_stated, auto&& remove) {
       if (!is_stated) return;
       stated.Add(feature);
+      if (m.model != ShadingModel::Unlit) stated_by_lit.Add(feature);
       if (settings_.without.Has(feature)) remove();
     };
     if (m.parameters != nullptr) {
@@ -133,8 +140,12 @@ class Planner {
       m = Material();
       m.alpha_mode = own.alpha_mode, m.alpha_cutoff = own.alpha_cutoff, m.double_sided = own.double_sided;
       m.model = own.model;
+      FeatureSet of_own;
       m.parameters =
-          std::make_shared<const ModelParameters>(WithoutFeatures(*own.parameters, settings_.without, stated));
+          std::make_shared<const ModelParameters>(WithoutFeatures(*own.parameters, settings_.without, of_own));
+      for (const FeatureWord& word : kFeatureWords) {
+        if (of_own.Has(word.feature)) stated.Add(word.feature), stated_by_lit.Add(word.feature);
+      }
     }
     for (const SlotInfo& slot : kSlots) {
       TextureRef& ref = m.*slot.ref;
@@ -237,7 +248,9 @@ FramePlan MakeFramePlan(const Scene& scene, const PosedScene& posed, const Rende
     decide(used, feature, what,
            !planner.stated.Has(feature) ? none
            : asked_out(feature)         ? kOnRequest
-                                        : "shows nothing: unlit materials, factors of 0 or textures without a picture");
+           : !planner.stated_by_lit.Has(feature)
+               ? "only unlit materials state it, and show the base colour alone"
+               : "shows nothing: unlit geometry, factors of 0 or textures without a picture");
   };
 
   for (const SlotInfo& slot : kSlots) {
@@ -292,6 +305,7 @@ FramePlan MakeFramePlan(const Scene& scene, const PosedScene& posed, const Rende
   plan.planes = settings.planes;
   if (plan.planes.empty()) plan.disabled.emplace_back("planes besides colour: not asked for");
   if (settings.samples == 1) plan.disabled.emplace_back("multisampling: one sample a pixel");
+  if (!settings.specular_antialiasing) plan.disabled.emplace_back(std::string("specular antialiasing: ") + kOnRequest);
   if (!settings.omit_unused) UseEverything(settings, plan);
   plan.albedo_tables = {.sheen = any_has(kSheen), .anisotropic_dfg = any_has(kAnisotropy)};
   return plan;

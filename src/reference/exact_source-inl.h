@@ -37,6 +37,8 @@ struct ExactSource {
     const glm::dvec2 uv = point.Uv(0);
     return {{uv.x, uv.y}, {}, {}};
   }
+  double MetresPerUnit() const { return point.metres_per_unit; }
+  double FootprintAlpha2() const { return 0.0; }
 };
 
 }  // namespace facet

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "math/elementary.h"
 #include "scene/topology.h"
 
 namespace facet {
@@ -24,12 +25,14 @@ ExactGeometry::ExactGeometry(const ExactView& view, const PosedScene& posed, con
   for (std::size_t d = 0; d < posed.drawables.size(); ++d) {
     const Drawable& drawable = posed.drawables[d];
     const glm::dmat3 linear(drawable.world_from_mesh);
-    const bool mirrored = glm::determinant(linear) < 0.0;
+    const double determinant = glm::determinant(linear);
+    const bool mirrored = determinant < 0.0;
     // Cofactors, for singular matrices too; normals do not follow the determinant's sign.
     const glm::dmat3 cofactors(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
                                glm::cross(linear[0], linear[1]));
     placed_.push_back({drawable.geometry, linear, mirrored ? -cofactors : cofactors,
-                       glm::dvec3(drawable.world_from_mesh[3]) - view_.eye_world, mirrored});
+                       glm::dvec3(drawable.world_from_mesh[3]) - view_.eye_world, Cbrt(std::fabs(determinant)),
+                       mirrored});
     const PrimitiveClass kind = ClassOf(drawable.geometry->topology);
     const std::uint32_t count = facet::PrimitiveCount(*drawable.geometry);
     for (std::uint32_t i = 0; i < count; ++i) {
@@ -236,6 +239,7 @@ SurfacePoint ExactGeometry::Surface(const TriangleId& primitive, const glm::dvec
   point.geometry = &geometry;
   point.vertex = PrimitiveVertices(geometry, primitive.index);
   point.weight = weight;
+  point.metres_per_unit = is_back ? 0.0 : placed.metres_per_unit;
   const auto mix = [&](const auto& of) { return of(0) * weight.x + of(1) * weight.y + of(2) * weight.z; };
   glm::dvec3 corner[3];
   for (std::size_t i = 0; i < 3; ++i) corner[i] = EyeRelative(placed, point.vertex[i]);

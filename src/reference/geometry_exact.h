@@ -61,6 +61,7 @@ class ExactGeometry {
     const Primitive* geometry;
     glm::dmat3 eye_relative_from_mesh, normal_from_mesh;
     glm::dvec3 origin_eye;
+    double metres_per_unit;
     bool mirrored;
   };
   // A line or point: its middle line in pixels, and depth there; half a pixel wide to each side.

@@ -88,17 +88,26 @@ class ReferenceScene {
     std::vector<ExactGeometry::Hit> hits, layers;
   };
 
+  // Light as in a film, and what shows through (Film::through).
+  struct Value {
+    glm::dvec4 color{0.0};
+    glm::dvec3 through{0.0};
+  };
+  // Whether a background that is not known yet shows through some surfaces.
+  bool ShowsThrough() const { return tracer_->Traces() && !plan_.environment_background; }
+
   // The mean over the pixel's samples.
-  glm::dvec4 Pixel(int x, int y, int batch, Scratch& scratch) const {
+  Value Pixel(int x, int y, int batch, Scratch& scratch) const {
     geometry_.CandidatesOf(x, y, scratch.candidates);
     const std::uint64_t number = std::uint64_t(y) << 32 | std::uint64_t(x);
     const SampleSequence sequence(MixBits(MixBits(MixBits(reference_.seed) ^ std::uint64_t(batch)) ^ number));
-    glm::dvec4 sum(0.0);
+    Value sum;
     for (int i = 0; i < reference_.samples; ++i) {
       const glm::dvec2 place = glm::dvec2(x, y) + sequence.Point(0, std::uint32_t(i));
-      sum += At(place, {sequence, 1, std::uint32_t(i) * light_->environment_samples}, scratch);
+      const Value value = At(place, {sequence, 1, std::uint32_t(i) * light_->environment_samples}, scratch);
+      sum.color += value.color, sum.through += value.through;
     }
-    return sum / double(reference_.samples);
+    return {sum.color / double(reference_.samples), sum.through / double(reference_.samples)};
   }
 
   const ExactTracer& Tracer() const { return *tracer_; }
@@ -120,7 +129,7 @@ class ReferenceScene {
 
   // Linear light, premultiplied, at one position in the image: blended surfaces composited over the nearest opaque or
   // alpha-tested surface.
-  glm::dvec4 At(const glm::dvec2& place, SampleRun run, Scratch& scratch) const {
+  Value At(const glm::dvec2& place, SampleRun run, Scratch& scratch) const {
     geometry_.HitsAt(place, scratch.candidates, scratch.hits);
     const Hit* nearest = nullptr;
     const auto consider = [&](const Hit& hit) {
@@ -150,19 +159,23 @@ class ReferenceScene {
                        [](const Hit& a, const Hit& b) { return a.depth < b.depth; });
     }
 
-    glm::dvec4 color(0.0);
+    Value value;
     if (nearest != nullptr) {
       const ExactTracer::Shown shown = tracer_->Shade(*nearest, run);
-      color = glm::dvec4(shown.light, shown.alpha);
+      value = {glm::dvec4(shown.light, shown.Alpha()), shown.through};
     } else if (plan_.environment_background) {
-      color = glm::dvec4(environment_->Toward(view_.DirectionThrough(place)).radiance, 1.0);
+      value.color = glm::dvec4(environment_->Toward(view_.DirectionThrough(place)).radiance, 1.0);
+    } else {
+      value.through = glm::dvec3(1.0);
     }
     for (const Hit& layer : scratch.layers) {
       run.pair += kPairsOfRadiance;
       const ExactTracer::Shown shown = tracer_->Shade(layer, run);
-      color = glm::dvec4(shown.light, shown.alpha) * shown.coverage + color * (1.0 - shown.coverage);
+      const double rest = 1.0 - shown.coverage;
+      value.color = glm::dvec4(shown.light, shown.Alpha()) * shown.coverage + value.color * rest;
+      value.through = shown.through * shown.coverage + value.through * rest;
     }
-    return color;
+    return value;
   }
 
   const ReferenceSettings& reference_;
@@ -202,8 +215,8 @@ class ReferenceRun::Work {
       : settings_(WithoutWhatIsUnused(settings)),
         reference_(reference),
         start_(reference.clock()),
-        film_bytes_(std::uint64_t(settings.width) * std::uint64_t(settings.height), 3 * sizeof(glm::dvec4),
-                    "the reference"),
+        film_bytes_(std::uint64_t(settings.width) * std::uint64_t(settings.height),
+                    3 * sizeof(glm::dvec4) + sizeof(glm::dvec3), "the reference"),
         prepared_(scene, settings_, reference_, notes_),
         order_(SpreadBlocks(settings.width, settings.height, reference.seed)) {
     film_.width = settings_.width;
@@ -211,6 +224,7 @@ class ReferenceRun::Work {
     const std::size_t count = std::size_t(film_.width) * std::size_t(film_.height);
     film_.pixels.assign(count, glm::dvec4(0.0));
     film_.standard_error.assign(count, glm::dvec4(0.0));
+    if (prepared_.ShowsThrough()) film_.through.assign(count, glm::dvec3(0.0));
     squares_.assign(count, glm::dvec4(0.0));
     preparation_seconds_ = Elapsed();
   }
@@ -268,10 +282,12 @@ class ReferenceRun::Work {
   // 1962, Note on a Method for Calculating Corrected Sums of Squares and Products.
   void AddBatch(int x, int y, int batch, ReferenceScene::Scratch& scratch) {
     const std::size_t i = std::size_t(y) * std::size_t(film_.width) + std::size_t(x);
-    const glm::dvec4 value = prepared_.Pixel(x, y, batch, scratch);
+    const ReferenceScene::Value pixel = prepared_.Pixel(x, y, batch, scratch);
+    const glm::dvec4& value = pixel.color;
     const double n = batch + 1.0;
     const glm::dvec4 off = value - film_.pixels[i];
     film_.pixels[i] += off / n;
+    if (!film_.through.empty()) film_.through[i] += (pixel.through - film_.through[i]) / n;
     squares_[i] += off * (value - film_.pixels[i]);
     film_.standard_error[i] = glm::sqrt(squares_[i] / (n * std::max(n - 1.0, 1.0)));
   }
@@ -365,6 +381,7 @@ Film ToFilm(const ReferenceFilm& reference) {
   film.width = reference.width;
   film.height = reference.height;
   for (const glm::dvec4& pixel : reference.pixels) film.pixels.push_back(RoundToFloat(pixel));
+  film.through.assign(reference.through.begin(), reference.through.end());
   return film;
 }
 

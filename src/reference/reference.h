@@ -56,6 +56,7 @@ struct ReferenceFilm {
   int height = 0;
   std::vector<glm::dvec4> pixels;          // as in Film: linear light, premultiplied by coverage alpha
   std::vector<glm::dvec4> standard_error;  // of each component of `pixels`, as a mean over the batches
+  std::vector<glm::dvec3> through;         // Film::through
   // The known blocks; pixels elsewhere are 0.
   std::vector<PixelBlock> blocks;
   std::size_t known_pixels = 0;

@@ -19,6 +19,7 @@ struct SurfacePoint {
   glm::dvec3 interpolated_normal{0.0, 0.0, 1.0};
   glm::dvec4 tangent{1.0, 0.0, 0.0, 1.0};
   glm::dvec4 color{1.0};  // of the vertices: linear, straight alpha; 1 where there is none
+  double metres_per_unit = 1.0;  // of the mesh; 0 where it is seen from behind, where no volume begins
 
   // Where on the primitive it lies.
   const Primitive* geometry = nullptr;

@@ -14,11 +14,7 @@ ExactTracer::ExactTracer(const ExactGeometry& geometry, const PosedScene& posed,
     : geometry_(geometry), posed_(posed), plan_(plan), materials_(materials), light_(light), background_(background) {
   const bool any = std::any_of(materials.begin(), materials.end(),
                                [](const ExactMaterial& m) { return m.Frame().Has(kTransmission); });
-  if (!any) return;
-  rays_.emplace(geometry);
-  for (const Drawable& drawable : posed.drawables) {
-    metres_per_unit_.push_back(Cbrt(std::fabs(glm::determinant(glm::dmat3(drawable.world_from_mesh)))));
-  }
+  if (any) rays_.emplace(geometry);
 }
 
 glm::dvec3 ExactTracer::Media::Passing(double distance) const {
@@ -69,12 +65,10 @@ ExactTracer::Shown ExactTracer::Shade(const ExactGeometry::Hit& hit, const Sampl
   const glm::dvec4 base = MaterialOf(triangle.drawable).BaseColor(point);
   Random random{run.sequence, run.pair * kPairsApart, run.index, light_.environment_samples};
   const Seen seen = Surface(point, glm::dvec3(base), triangle, geometry_.IsBack(hit), run, Way{}, random);
-  const bool is_clear = seen.through != glm::dvec3(0.0);
-  Shown shown{seen.light, is_clear ? 1.0 - (seen.through.x + seen.through.y + seen.through.z) / 3.0 : 1.0,
-              std::clamp(base.w, 0.0, 1.0)};
-  if (std::isfinite(shown.light.x + shown.light.y + shown.light.z + shown.alpha + base.w)) return shown;
+  const Shown shown{seen.light, seen.through, std::clamp(base.w, 0.0, 1.0)};
+  if (std::isfinite(shown.light.x + shown.light.y + shown.light.z + shown.Alpha() + base.w)) return shown;
   ++non_finite_;
-  return {glm::dvec3(0.0), 1.0, 0.0};
+  return {glm::dvec3(0.0), glm::dvec3(0.0), 0.0};
 }
 
 ExactTracer::Seen ExactTracer::Surface(const SurfacePoint& point, const glm::dvec3& base_color,
@@ -83,8 +77,7 @@ ExactTracer::Seen ExactTracer::Surface(const SurfacePoint& point, const glm::dve
   const ExactMaterial& material = MaterialOf(triangle.drawable);
   Seen seen{RadianceByModel(material, base_color, point, light_, run), glm::dvec3(0.0)};
   if (!material.Frame().Has(kTransmission)) return seen;
-  const ExactEntry entry =
-      EntryAt(material, base_color, point, is_back ? 0.0 : metres_per_unit_[triangle.drawable], light_);
+  const ExactEntry entry = EntryAt(material, base_color, point, light_);
   seen.light += entry.punctual;
   if (entry.tint == glm::dvec3(0.0)) return seen;
   if (way.left == 0) {

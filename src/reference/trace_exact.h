@@ -48,10 +48,13 @@ class ExactTracer {
   // it takes pairs from kPairsApart times that on.
   struct Shown {
     glm::dvec3 light{0.0};
-    double alpha = 1.0;     // below 1 where light comes through it from nowhere; `light` is premultiplied by it
+    glm::dvec3 through{0.0};  // the share of what it shows that comes through it from nowhere
+    double Alpha() const { return 1.0 - (through.x + through.y + through.z) / 3.0; }  // `light` is premultiplied by it
     double coverage = 1.0;  // of the surface: its base colour's alpha
   };
   Shown Shade(const ExactGeometry::Hit& hit, const SampleRun& run) const;
+  // Whether any material lets light pass.
+  bool Traces() const { return rays_.has_value(); }
 
   // How often a surface's light was not finite, and became black and transparent.
   std::uint64_t NonFinite() const { return non_finite_; }
@@ -128,8 +131,7 @@ class ExactTracer {
   const std::vector<ExactMaterial>& materials_;
   const ExactLight& light_;
   const ExactEnvironment* const background_;
-  std::optional<ExactRays> rays_;        // if any material transmits
-  std::vector<double> metres_per_unit_;  // of each drawable
+  std::optional<ExactRays> rays_;  // if any material transmits
   mutable std::atomic<std::uint64_t> non_finite_{0}, given_up_{0};
 };
 

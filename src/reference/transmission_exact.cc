@@ -30,26 +30,26 @@ ExactInterface InterfaceAt(const ExactSource& source, const SurfacePoint& point,
 bool IsEnterprise(const ExactMaterial& material) { return material.Frame().model == ShadingModel::Enterprise; }
 
 ExactEntry EntryOfEnterprise(const ExactSource& source, const glm::dvec3& base_color, const SurfacePoint& point,
-                             double metres_per_unit, const ExactLight& light) {
+                             const ExactLight& light) {
   const ExactLighting lighting(light.albedos);
-  const lanes::Vec4<double> base = ToLanes(glm::dvec4(base_color, 1.0));
-  const double is_entered = metres_per_unit > 0.0 ? 1.0 : 0.0;  // the plan has turned the thickness into metres
-  const lanes::EnterpriseScattering<double> surface(source, base, ToLanes(point.view), lighting, 0.0);
+  auto in = lanes::ReadEnterpriseInputs<double>(source, ToLanes(glm::dvec4(base_color, 1.0)));
+  const auto volume = in.volume;
+  in.volume.thickness = 0.0;  // so that the colour is that of the surface alone
+  const lanes::EnterpriseScattering<double> surface(source, in, ToLanes(point.view), lighting);
 
   ExactEntry entry;
   // Microfacets of the same area; the rays' facets are equally wide in all directions.
   const double alpha = surface.closure.Has(kAnisotropy)
                            ? std::sqrt(surface.closure.anisotropic.alpha_t * surface.closure.anisotropic.alpha_b)
-                           : Bounded(surface.in.perceptual_roughness) * Bounded(surface.in.perceptual_roughness);
+                           : Bounded(in.perceptual_roughness) * Bounded(in.perceptual_roughness);
   entry.at = InterfaceAt(source, point, std::sqrt(alpha), surface.normal);
   entry.thin_wall_alpha = surface.closure.transmission.unclamped_alpha;
   entry.tint = FromLanes(surface.Tint());
   glm::dvec3 passing(1.0);
   if (source.Has(kVolume)) {
-    const float* const absorption = source.Factors().absorption;
-    entry.absorption = glm::dvec3(absorption[0], absorption[1], absorption[2]);
-    entry.thickness = double(source.Factors().thickness) * is_entered;
-    passing = FromLanes(lanes::TransmissionLobe<double>::Passing(ToLanes(entry.absorption), entry.thickness));
+    entry.absorption = FromLanes(volume.absorption);
+    entry.thickness = volume.thickness;
+    passing = FromLanes(volume.Passing());
   }
   for (const PunctualLight& punctual : light.punctual) {
     const auto sample = lanes::SamplePunctual(punctual, ToLanes(point.position));
@@ -75,13 +75,13 @@ ExactInterface ExitAt(const ExactMaterial& material, const SurfacePoint& point) 
 }
 
 ExactEntry EntryAt(const ExactMaterial& material, const glm::dvec3& base_color, const SurfacePoint& point,
-                   double metres_per_unit, const ExactLight& light) {
+                   const ExactLight& light) {
   const ExactSource source{material, point};
-  if (IsEnterprise(material)) return EntryOfEnterprise(source, base_color, point, metres_per_unit, light);
+  if (IsEnterprise(material)) return EntryOfEnterprise(source, base_color, point, light);
   auto in = lanes::ReadInputs<double>(source, ToLanes(glm::dvec4(base_color, 1.0)), material.Frame().features);
   if (material.Frame().model == ShadingModel::SpecularGlossiness) lanes::SetSpecularGlossiness(source, in);
-  const double thickness = in.transmission.thickness * metres_per_unit;
-  in.transmission.thickness = 0.0;  // so that the closure's colour is that of the surface alone
+  const auto volume = in.volume;
+  in.volume.thickness = 0.0;  // so that the closure's colour is that of the surface alone
   const ExactLighting lighting(light.albedos);
   const lanes::Closure<double> closure(in, ToLanes(point.view), lighting);
 
@@ -91,9 +91,9 @@ ExactEntry EntryAt(const ExactMaterial& material, const glm::dvec3& base_color, 
   entry.tint = FromLanes(closure.transmission.color);
   glm::dvec3 passing(1.0);
   if (source.Has(kVolume)) {
-    entry.absorption = FromLanes(in.transmission.absorption);
-    entry.thickness = thickness;
-    passing = FromLanes(closure.transmission.Passing(in.transmission.absorption, thickness));
+    entry.absorption = FromLanes(volume.absorption);
+    entry.thickness = volume.thickness;
+    passing = FromLanes(volume.Passing());
   }
   for (const PunctualLight& punctual : light.punctual) {
     const auto sample = lanes::SamplePunctual(punctual, ToLanes(point.position));

@@ -35,9 +35,8 @@ struct ExactEntry {
   // The light of punctual lights behind the surface that passes it, by the closure's lobe: not traced.
   glm::dvec3 punctual{0.0};
 };
-// `metres_per_unit`: of the mesh; 0: no medium begins here.
 ExactEntry EntryAt(const ExactMaterial& material, const glm::dvec3& base_color, const SurfacePoint& point,
-                   double metres_per_unit, const ExactLight& light);
+                   const ExactLight& light);
 
 // A way on through a thin wall: a sample of the reflection with Fresnel 1 and multiple scattering between microfacets,
 // mirrored to the back. The mean of `weight` is 1.

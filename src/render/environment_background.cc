@@ -17,6 +17,13 @@ ViewDirections MakeViewDirections(const FrameView& view) {
       out.row[c][std::size_t(y)] = axis.y * ((y + 0.5 - view.height * 0.5) / view.screen_y.y);
     }
     out.whole[c] = axis.z * -1.0;
+    double corner = out.whole[c];
+    if (view.perspective) {
+      out.per_column[c] = static_cast<float>(axis.x / view.screen_x.x);
+      out.per_row[c] = static_cast<float>(axis.y / view.screen_y.y);
+      corner -= axis.x * (view.width * 0.5 / view.screen_x.x) + axis.y * (view.height * 0.5 / view.screen_y.y);
+    }
+    out.corner[c] = static_cast<float>(corner);
   }
   return out;
 }
@@ -44,14 +51,9 @@ void EnvironmentBackground::AddSeen(EnvironmentSeen& seen, std::vector<glm::vec4
   std::vector<float> light(3 * padded);
   EnvironmentTask task;
   for (int c = 0; c < 3; ++c) {
-    const glm::dvec3& axis = view_->camera_from_world[c];  // as MakeViewDirections()
-    double whole = axis.z * -1.0;
-    if (view_->perspective) {
-      task.column[c] = static_cast<float>(axis.x / view_->screen_x.x);
-      task.row[c] = static_cast<float>(axis.y / view_->screen_y.y);
-      whole -= axis.x * (view_->width * 0.5 / view_->screen_x.x) + axis.y * (view_->height * 0.5 / view_->screen_y.y);
-    }
-    task.whole[c] = static_cast<float>(whole);
+    task.column[c] = directions_.per_column[c];
+    task.row[c] = directions_.per_row[c];
+    task.whole[c] = directions_.corner[c];
   }
   task.x = seen.x.data(), task.y = seen.y.data(), task.roughness = seen.roughness.data();
   task.count = count;

@@ -12,10 +12,11 @@ namespace facet {
 
 // The directions from the eye through the pixels of an image, as the sum of a column's part and a row's part.
 // DirectionThrough(view, x + 0.5, y + 0.5), to the bit, is (column[.][x] + row[.][y]) + whole. Columns are followed by
-// kTaskPadding zeros.
+// kTaskPadding zeros. Through any point (x, y) it is per_column x + per_row y + corner, but for rounding.
 struct ViewDirections {
   std::vector<double> column[3], row[3];
   double whole[3] = {};
+  float per_column[3] = {}, per_row[3] = {}, corner[3] = {};
 };
 
 ViewDirections MakeViewDirections(const FrameView& view);
@@ -26,7 +27,7 @@ class EnvironmentBackground {
   // A transparent background.
   EnvironmentBackground() = default;
   EnvironmentBackground(const FrameView& view, const LightingData& lighting)
-      : lighting_(&lighting), view_(&view), directions_(MakeViewDirections(view)) {}
+      : lighting_(&lighting), directions_(MakeViewDirections(view)) {}
 
   // Changes the pixels that are not completely covered. `pixels`: of the tile, tile_size a row.
   void CompositeUnder(const TileBuffers& tile, std::vector<glm::vec4>& pixels) const;
@@ -37,7 +38,6 @@ class EnvironmentBackground {
 
  private:
   const LightingData* lighting_ = nullptr;
-  const FrameView* view_ = nullptr;
   ViewDirections directions_;
 };
 

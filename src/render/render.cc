@@ -124,17 +124,19 @@ class Renderer::Frames {
     stats.texture_seconds = stage.Lap();
 
     const EnvironmentMap* const environment = environment_.Prepare(plan, settings, budget, stats);
+    stats.environment_seconds = stage.Lap();
     std::vector<PunctualLight> lights;
     if (plan.punctual_lights) lights = MakePunctualLights(posed.lights, view.eye_world);
     Warn(WhyNothingIsLit(plan, geometry_.material_visible, !lights.empty(), settings), stats);
     if (plan.zero_light) lights.emplace_back().type = LightType::Directional;
     const LightingData all_light = MakeLightingData(lights, environment, settings.environment.rotation,
                                                     settings.environment.intensity, plan.albedo_tables);
+    stats.table_seconds = stage.Lap();
     LightingData lighting = all_light;
     if (!plan.environment_light) lighting.environment = nullptr;  // it may still be the background
     const EnvironmentBackground background =
         plan.environment_background ? EnvironmentBackground(view, all_light) : EnvironmentBackground();
-    stats.environment_seconds = stage.Lap();
+    stats.environment_seconds += stage.Lap();
 
     const TiledView tiled{view, geometry_, attributes, materials, grid, settings.samples};
     TilePassInput input{tiled, lighting, /*cull_lights=*/!settings.HasShaders(), background, settings.progress};
@@ -151,9 +153,13 @@ class Renderer::Frames {
       input.backdrop = &*backdrop;
       stats.raster_seconds += stage.Lap();
     }
-    TileOutput pixels{nullptr, output.encode, {}};
+    TileOutput pixels{nullptr, nullptr, output.encode, {}};
     if (output.film != nullptr) {
       PrepareFilm(settings.width, band_rows, *output.film);
+      if (input.ShowsThrough()) {
+        budget.Charge(std::uint64_t(settings.width) * std::uint64_t(band_rows), sizeof(glm::vec3),
+                      "what shows through the picture, by channel", {}, "make the picture smaller");
+      }
     } else {
       SizeForTask(output.encode, settings.width, settings.height, *output.image);
       pixels.encode.out = output.image->bytes.data();
@@ -167,6 +173,8 @@ class Renderer::Frames {
         film.height = std::min(end * grid.tile_size, settings.height) - first;
         film.pixels.resize(std::size_t(film.width) * std::size_t(film.height));
         pixels.film = film.pixels.data();
+        film.through.resize(input.ShowsThrough() ? film.pixels.size() : 0);
+        pixels.through = film.through.empty() ? nullptr : film.through.data();
         SizePlanes(plan.planes, film);
         pixels.planes = film.planes;
       }

@@ -46,6 +46,10 @@ class TileWorker {
     is_known ? in_.backdrop->GetTile(visibility_.Buffers(), pixels_)
              : DrawOpaque(touched, in_.backdrop != nullptr ? again : counts);
     in_.background.CompositeUnder(visibility_.Buffers(), pixels_);
+    if (in_.ShowsThrough()) {
+      through_pixels_.clear();
+      for (const glm::vec4& pixel : pixels_) through_pixels_.emplace_back(1.0f - std::min(pixel.a, 1.0f));
+    }
     if (visibility_.HasBlended()) Blend(counts);
     const std::size_t first =
         std::size_t(row * grid.tile_size) * std::size_t(grid.width) + std::size_t(column * grid.tile_size);
@@ -100,8 +104,9 @@ class TileWorker {
     }
     const ThroughView view{in_.view.view.perspective, static_cast<float>(std::fabs(in_.view.view.screen_y.y)),
                            in_.background.IsEnvironment()};
+    through_pixels_.resize(pixels_.size());
     through_.Run(view, visibility_.Buffers(), opaque_, blended_, visibility_.Records().All(), *in_.backdrop,
-                 background_, pixels_, environment_seen_);
+                 background_, pixels_, through_pixels_, environment_seen_);
     in_.background.AddSeen(environment_seen_, pixels_);
   }
 
@@ -111,6 +116,7 @@ class TileWorker {
     if (output.film == nullptr) {
       EncodeTask task = output.encode;
       task.pixels = &pixels_[0].x;
+      if (in_.ShowsThrough()) task.through = &through_pixels_[0].x;
       task.count = static_cast<std::size_t>(tile.width), task.rows = static_cast<std::size_t>(tile.height);
       task.pixel_stride = static_cast<std::size_t>(tile.tile_size);
       task.out_stride = static_cast<std::size_t>(in_.view.grid.width);
@@ -118,8 +124,10 @@ class TileWorker {
       return EncodePixels(task);
     }
     for (int y = 0; y < tile.height; ++y) {
-      const glm::vec4* row = pixels_.data() + y * tile.tile_size;
-      std::copy(row, row + tile.width, output.film + first + std::ptrdiff_t(y) * in_.view.grid.width);
+      const std::ptrdiff_t from = y * tile.tile_size;
+      const std::size_t to = first + std::size_t(y) * std::size_t(in_.view.grid.width);
+      std::copy_n(pixels_.data() + from, tile.width, output.film + to);
+      if (output.through != nullptr) std::copy_n(through_pixels_.data() + from, tile.width, output.through + to);
     }
   }
 
@@ -143,6 +151,7 @@ class TileWorker {
   EnvironmentSeen environment_seen_;
   PlaneResolver planes_;
   TilePixels background_, pixels_;
+  std::vector<glm::vec3> through_pixels_;  // Film::through
 };
 
 // Lends workers to tasks, so that there is one per thread, not one per tile.

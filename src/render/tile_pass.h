@@ -23,12 +23,15 @@ struct TilePassInput {
   const std::function<void(double)>& progress;  // may be empty
   // What is behind surfaces that are seen through, from CollectBackdrop(); null: there are none.
   const Backdrop* backdrop = nullptr;
+  // Whether a background that is not known yet shows through some of them.
+  bool ShowsThrough() const { return backdrop != nullptr && !background.IsEnvironment(); }
 };
 
 // Where the pixels of tiles go: to a film, or to an image, for which each tile is tone-mapped and encoded while it is
 // in the first-level cache. Both have the width of the grid.
 struct TileOutput {
   glm::vec4* film = nullptr;  // null: pixels go to encode.out
+  glm::vec3* through = nullptr;  // Film::through, if the film has it
   EncodeTask encode;
   std::span<Plane> planes;  // besides colour
 };

@@ -166,7 +166,7 @@ SeenThroughOutputs TileShading::PrepareSeenThrough(std::size_t padded, ShadeTask
 
 // Fragments that are not seen through have zeros.
 void TileShading::PutSeenThrough(bool is_seen_through, bool disperses, SeenThroughFragments& out) const {
-  const auto put = [&](const std::vector<float>& from, std::vector<float>& to) {
+  const auto put = [&](const PageVector<float>& from, PageVector<float>& to) {
     for (std::size_t i = 0; i < selected_.size(); ++i) to[selected_[i]] = is_seen_through ? from[i] : 0.0f;
   };
   for (int c = 0; c < 3; ++c) {

@@ -65,7 +65,8 @@ class TileShading {
   std::vector<const ScreenTriangle*> set_up_;  // the batch's triangles, in the order of their setups
   std::vector<float> setups_;
   std::vector<std::int32_t> setup_of_;  // by fragment of the batch, like all below
-  std::vector<float> x_, y_, red_, green_, blue_, alpha_;
+  std::vector<float> x_, y_;
+  PageVector<float> red_, green_, blue_, alpha_;
   SeenThroughFragments seen_through_;
 };
 

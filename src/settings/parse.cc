@@ -54,10 +54,10 @@ bool DigitsOnly(std::string_view text) {
   return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
-// Lists the available choices for messages: "0 'Front', 1 'Top' and 7 more".
-std::string Listing(const std::vector<std::string>& names) {
+// Says what there is to choose from: "its cameras are 0 'Front', 1 'Top' and 7 more".
+std::string Listing(const std::string& word, const std::vector<std::string>& names) {
   constexpr std::size_t kMost = 12;
-  std::string list;
+  std::string list = names.size() == 1 ? "its only " + word + " is " : "its " + word + "s are ";
   for (std::size_t i = 0; i < std::min(names.size(), kMost); ++i) {
     if (i > 0) list += ", ";
     list += std::to_string(i);
@@ -251,17 +251,16 @@ int Choose(std::string_view option, std::string_view kind, const std::string& te
     std::size_t index = 0;
     const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), index);
     if (error == std::errc() && index < names.size()) return static_cast<int>(index);
-    throw Error(ErrorCode::InvalidUsage, "there is no " + word + " " + text, std::string(option),
-                "the file has " + Listing(names));
+    throw Error(ErrorCode::InvalidUsage, "there is no " + word + " " + text, std::string(option), Listing(word, names));
   }
   const auto first = std::find(names.begin(), names.end(), text);
   if (first == names.end()) {
     throw Error(ErrorCode::InvalidUsage, "no " + word + " is called " + Quoted(text), std::string(option),
-                "the file has " + Listing(names));
+                Listing(word, names));
   }
   if (std::find(first + 1, names.end(), text) != names.end()) {
     throw Error(ErrorCode::InvalidUsage, "more than one " + word + " is called " + Quoted(text), std::string(option),
-                "give an index; the file has " + Listing(names));
+                "give an index; " + Listing(word, names));
   }
   return static_cast<int>(first - names.begin());
 }

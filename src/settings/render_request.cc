@@ -186,6 +186,12 @@ constexpr std::array kOptions = {
           r.settings.irradiance = static_cast<IrradianceMethod>(ParseChoice(where, text, {"convolution", "harmonics"}));
         },
         "harmonics convolution"},
+    RequestOption{"specular-antialiasing", kQuality, "on|off", "on",
+                  "Widens reflections where the normal turns within\na pixel [on]",
+                  [](RenderRequest& r, Text where, Text text) {
+                    r.settings.specular_antialiasing = ParseChoice(where, text, {"off", "on"}) == 1;
+                  },
+                  "off on"},
 };
 
 template <class T>

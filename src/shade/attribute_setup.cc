@@ -136,7 +136,9 @@ HWY_INLINE Point UnitOr(const Point& v, const Fallback& fallback) {
 // Computes the weights' planes: the rows of the inverse of the matrix with columns h[0], h[1], h[2], up to a positive
 // factor, which cancels as weights are divided by their sum. A degenerate triangle gets all attributes from its first
 // vertex.
-HWY_INLINE void PutPlanes(const Point (&h)[3], ScreenTriangleKind kind, AttributeLanes& out) {
+//
+// Returns the determinant of the planes, 0 if they do not depend on all vertices.
+HWY_INLINE Double PutPlanes(const Point (&h)[3], ScreenTriangleKind kind, AttributeLanes& out) {
   Point row[3] = {Cross(h[1], h[2]), Cross(h[2], h[0]), Cross(h[0], h[1])};
   const Double determinant = Dot(row[0], h[0]), zero(0.0);
   const Double sign = Select(determinant < zero, Double(-1.0), Double(1.0));
@@ -155,6 +157,9 @@ HWY_INLINE void PutPlanes(const Point (&h)[3], ScreenTriangleKind kind, Attribut
     out.Put(AttributeLayout::kPlanes + 3 * i,
             kind == ScreenTriangleKind::Point ? degenerate : Select(good, plane, degenerate));
   }
+  if (kind != ScreenTriangleKind::Triangle) return zero;
+  const Double scale = determinant / largest;  // the determinant of the rows is that of the vertices, squared
+  return Select(good, scale * scale / largest, zero);
 }
 
 // --- Groups ---------------------------------------------------------------------------------------------------------
@@ -187,7 +192,7 @@ void SetUpGroup(const AttributeSetupTask& task, const Group& group, AttributeLan
     const Point line = Cross(h[0], h[1]);  // its x and y point across the line on the screen
     h[2] = {line.x, line.y, Double(0.0)};
   }
-  PutPlanes(h, group.kind, out);
+  const Double planes = PutPlanes(h, group.kind, out);
 
   const Double side = Load(group.sides), mirrored_side = drawable.mirrored ? -side : side;
   if (task.material->Has(kLit)) {
@@ -203,11 +208,14 @@ void SetUpGroup(const AttributeSetupTask& task, const Group& group, AttributeLan
       return UnitOr(Cross(position[1] - position[0], position[2] - position[0]) * mirrored_side, toward_eye);
     };
     const bool given = !group.geometry->normals.empty();
+    Point normal[3];
     for (int i = 0; i < 3; ++i) {
-      const Point normal =
-          given ? UnitOr(Transform(drawable.normal_from_mesh, group.normals.Get(i)) * side, flat) : flat();
-      out.Put(AttributeLayout::kNormals + 3 * i, normal);
+      normal[i] = given ? UnitOr(Transform(drawable.normal_from_mesh, group.normals.Get(i)) * side, flat) : flat();
+      out.Put(AttributeLayout::kNormals + 3 * i, normal[i]);
     }
+    const bool sweeps = given && task.material->specular_antialiasing;
+    out.Put(AttributeLayout::kNormalSweep,
+            sweeps ? Abs(Dot(normal[0], Cross(normal[1] - normal[0], normal[2] - normal[0]))) * planes : Double(0.0));
   }
   if (task.material->Has(kTangentSpaceBits)) {
     for (int i = 0; i < 3; ++i) {

@@ -22,6 +22,7 @@ static_assert(kMaxUvSlots <= kSurfaceUvSlots);
 template <class T>
 struct Barycentric {
   T b[3];                // weights, >= 0, sum 1
+  T inverse;             // 1 / (e_0 + e_1 + e_2)
   T db_dx[3], db_dy[3];  // per pixel
 };
 
@@ -33,6 +34,11 @@ struct UniformSetup {
 template <class T>
 HWY_INLINE Vec4<T> FetchVec4(const float* p, UniformSetup setup) {
   return {T(p[setup.base]), T(p[setup.base + 1]), T(p[setup.base + 2]), T(p[setup.base + 3])};
+}
+
+template <class T>
+HWY_INLINE T Fetch(const float* p, UniformSetup setup) {
+  return T(p[setup.base]);
 }
 
 // `base`: for each lane the index of its setup times the stride, or UniformSetup.
@@ -53,6 +59,7 @@ HWY_INLINE Barycentric<T> InterpolationWeights(const float* setups, Base base, T
   const T inverse = Select(good, T(1.0f) / sum, T(0.0f));
   const T sum_a = (a[0] + a[1]) + a[2], sum_b = (b[0] + b[1]) + b[2];
   Barycentric<T> w{};
+  w.inverse = inverse;
   for (int i = 0; i < 3; ++i) {
     w.b[i] = Select(good, e[i] * inverse, T(i == 0 ? 1.0f : 0.0f));
     w.db_dx[i] = (a[i] - w.b[i] * sum_a) * inverse;
@@ -74,6 +81,20 @@ HWY_INLINE Vec4<T> InterpolateVec4(const float* setups, Base base, const Barycen
   return {Weigh(w.b, p.x, q.x, r.x), Weigh(w.b, p.y, q.y, r.y), Weigh(w.b, p.z, q.z, r.z), Weigh(w.b, p.w, q.w, r.w)};
 }
 
+// Surface::footprint_alpha2 from the solid angle that the normal sweeps over the pixel. Reflections of a pixel come
+// from normals all over a patch of that size, which half of GGX's facets are in if alpha^2 is 1 / (2 pi) of it (half
+// are tilted by less than alpha). As GGX has tails beyond, which a pixel does not, less has the least error: 1/16
+// (docs/accuracy.md). The geometric mean of the two ways in which a surface curves is what the solid angle gives. It
+// does not blur cylinders, as the arithmetic mean would (Tokuyoshi and Kaplanyan, 2019, Improved Geometric Specular
+// Antialiasing, whose bound of 0.18 this is): a lobe of one width cannot filter along one axis only.
+template <class T>
+HWY_INLINE T FootprintAlpha2(T normal_sweep, const Vec3<T>& normal, T inverse) {
+  constexpr float kAlpha2OfSolidAngle = 1.0f / 16.0f, kMost = 0.18f;
+  const T zero(0.0f), scale = inverse / Sqrt(Dot(normal, normal));
+  const T alpha2 = normal_sweep * T(kAlpha2OfSolidAngle) * scale * scale * scale;
+  return Select(alpha2 > zero, Min(alpha2, T(kMost)), zero);  // not a number is 0, too
+}
+
 template <class T, class Base>
 HWY_INLINE void InterpolateFrom(const ShadeTask& task, Base base, T x, T y, Surface<T>& s) {
   const FrameMaterial& material = *task.material;
@@ -81,6 +102,7 @@ HWY_INLINE void InterpolateFrom(const ShadeTask& task, Base base, T x, T y, Surf
   const Barycentric<T> w = InterpolationWeights(setups, base, x, y);
   s.position = s.view = s.normal = s.interpolated_normal = Vec3<T>{};
   s.tangent = Vec4<T>{};
+  s.footprint_alpha2 = T(0.0f);
   s.color = {T(1.0f), T(1.0f), T(1.0f), T(1.0f)};
   if (material.vertex_colors) s.color = InterpolateVec4(setups, base, w, AttributeLayout::kColors, 4);
   if (material.Has(kLit)) {
@@ -89,10 +111,19 @@ HWY_INLINE void InterpolateFrom(const ShadeTask& task, Base base, T x, T y, Surf
     s.view = task.orthographic
                  ? Vec3<T>{T(task.view_direction[0]), T(task.view_direction[1]), T(task.view_direction[2])}
                  : NormalizeOr(-s.position, up);
-    s.interpolated_normal = Xyz(InterpolateVec4(setups, base, w, AttributeLayout::kNormals, 3));
+    const float* normals = setups + AttributeLayout::kNormals;
+    const Vec4<T> p = FetchVec4<T>(normals, base), q = FetchVec4<T>(normals + 3, base),
+                  r = FetchVec4<T>(normals + 6, base);
+    s.interpolated_normal = {Weigh(w.b, p.x, q.x, r.x), Weigh(w.b, p.y, q.y, r.y), Weigh(w.b, p.z, q.z, r.z)};
     s.normal = NormalizeOr(s.interpolated_normal, s.view);
+    const T sweep = r.w;
+    static_assert(AttributeLayout::kNormalSweep == AttributeLayout::kNormals + 9);
+    if (Any(sweep > T(0.0f))) s.footprint_alpha2 = FootprintAlpha2(sweep, s.interpolated_normal, w.inverse);
   }
   if (material.Has(kTangentSpaceBits)) s.tangent = InterpolateVec4(setups, base, w, AttributeLayout::kTangents, 4);
+  if (material.Has(kVolume)) {
+    s.metres_per_unit = Fetch<T>(setups + AttributeLayout::MetresPerUnit(material.uv_slots), base);
+  }
   for (int slot = 0; slot < material.uv_slots; ++slot) {
     const float* p = setups + AttributeLayout::kTexCoords + 6 * slot;
     const Vec4<T> uv01 = FetchVec4<T>(p, base), uv12 = FetchVec4<T>(p + 2, base);
@@ -106,7 +137,8 @@ HWY_INLINE void InterpolateFrom(const ShadeTask& task, Base base, T x, T y, Surf
 }
 
 // Interpolates the attributes that the material reads for fragment i of `task`, or for all lanes from i on. Others
-// become zero, except for the vertex colour, which becomes 1, and texture coordinates, which are left unchanged.
+// become zero, except for the vertex colour, which becomes 1, and texture coordinates and metres per unit, which are
+// left unchanged.
 template <class T>
 HWY_INLINE void InterpolateSurface(const ShadeTask& task, std::size_t i, Surface<T>& s) {
   const T x = Load<T>(task.x + i), y = Load<T>(task.y + i);

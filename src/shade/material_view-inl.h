@@ -169,6 +169,7 @@ class MaterialView {
     const Vec4<T> base = BaseColor(s, textures);
     const Source source{m_, s, textures};
     MaterialInputs<T> in = ReadInputs<T, kPossible>(source, base, m_.features);
+    in.footprint_alpha2 = s.footprint_alpha2;
     if constexpr ((kPossible & kIor) != 0) {
       if (m_.model == ShadingModel::SpecularGlossiness) SetSpecularGlossiness(source, in);
     }
@@ -196,6 +197,8 @@ class MaterialView {
     HWY_INLINE UvFootprint<T> FirstUv() const {
       return {s.uv[m.first_uv_slot], s.duv_dx[m.first_uv_slot], s.duv_dy[m.first_uv_slot]};
     }
+    HWY_INLINE T MetresPerUnit() const { return s.metres_per_unit; }
+    HWY_INLINE T FootprintAlpha2() const { return s.footprint_alpha2; }
   };
 
   HWY_INLINE TextureReader<T>& ReaderOf(const Surface<T>& s, TextureReader<T>& own) const {

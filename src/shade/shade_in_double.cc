@@ -24,7 +24,7 @@ lanes::Shaded<double> ShadeSeenThrough(const ShadeTask& task, const lanes::Surfa
                                        const lanes::MaterialView<double>& material,
                                        const lanes::LightingView<double>& lighting, std::size_t i) {
   const auto shade = [&]<class Model>(Model) {
-    const lanes::ShadedThrough<double> shaded = lanes::ModelSeenThrough<Model>{task}(surface, material, lighting, i);
+    const lanes::ShadedThrough<double> shaded = lanes::ModelSeenThrough<Model>{task}(surface, material, lighting);
     lanes::StoreSeenThrough(task, surface, i, shaded);
     return shaded.own;
   };

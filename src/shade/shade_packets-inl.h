@@ -67,24 +67,15 @@ HWY_INLINE void StoreSeenThrough(const ShadeTask& task, const Surface<T>& surfac
   }
 }
 
-// Metres per unit of the mesh (AttributeLayout::MetresPerUnit()) at fragments i and after.
-template <class T>
-HWY_INLINE T MetresPerUnit(const ShadeTask& task, std::size_t i) {
-  const int uv_slots = task.material->uv_slots;
-  if (!task.material->Has(kVolume)) return T(0.0f);
-  const IntOf<T> setup = LoadIntOf<T>(task.setup + i) * IntOf<T>(AttributeLayout::Stride(uv_slots));
-  return Fetch<T>(task.setups + AttributeLayout::MetresPerUnit(uv_slots), setup);
-}
-
 // Shades by a model that returns ShadedThrough. Surfaces cover what their alpha mode says.
 template <class Model>
 struct ModelSeenThrough {
   const ShadeTask& task;
 
   template <class T, class Material, class Lighting>
-  HWY_INLINE ShadedThrough<T> operator()(const Surface<T>& surface, const Material& material, const Lighting& lighting,
-                                         std::size_t i) const {
-    ShadedThrough<T> shaded = Model::Through(surface, MetresPerUnit<T>(task, i), material, lighting);
+  HWY_INLINE ShadedThrough<T> operator()(const Surface<T>& surface, const Material& material,
+                                         const Lighting& lighting) const {
+    ShadedThrough<T> shaded = Model::Through(surface, material, lighting);
     T& alpha = shaded.own.alpha;
     if (task.material->alpha_mode == AlphaMode::Opaque) alpha = T(1.0f);
     if (task.material->alpha_mode == AlphaMode::Mask) {
@@ -93,18 +84,6 @@ struct ModelSeenThrough {
     return shaded;
   }
 };
-
-// Calls a functor; those of surfaces that are seen through are told the fragment's index as well.
-template <class Shader>
-HWY_INLINE auto ShadeAt(const Shader& shader, const Surface<Float>& surface, const MaterialView<Float>& material,
-                        const LightingView<Float>& lighting, std::size_t i) {
-  if constexpr (std::is_invocable_v<const Shader&, const Surface<Float>&, const MaterialView<Float>&,
-                                    const LightingView<Float>&, std::size_t>) {
-    return shader(surface, material, lighting, i);
-  } else {
-    return shader(surface, material, lighting);
-  }
-}
 
 // Shades all fragments of a task. The texels of the next packet are prefetched before the current one is shaded, which
 // hides the latency of memory. Lanes beyond the end of the batch shade the caller's padding; their results are unused.
@@ -124,7 +103,7 @@ HWY_INLINE void ShadePackets(const ShadeTask& task, const Shader& shader, Surfac
   for (std::size_t i = 0; i < task.count; i += lanes, buffer = 1 - buffer) {
     if (i + lanes < task.count) prepare(i + lanes, 1 - buffer);
     const MaterialView<Float> material(*task.material, &readers[buffer]);
-    const auto result = ShadeAt(shader, surfaces[buffer], material, lighting, i);
+    const auto result = shader(surfaces[buffer], material, lighting);
     StoreSeenThrough(task, surfaces[buffer], i, result);
     const Shaded<Float>& shaded = OwnOf(result);
     const Vec3<Float> c = shaded.color;
@@ -143,8 +122,8 @@ HWY_INLINE void ShadePackets(const ShadeTask& task, const Shader& shader, Surfac
   }
 }
 
-// The same for users' shaders: texture coordinates that the material does not read are zero. Shading models do without
-// this clearing, because in batches of few fragments it would take up to 6 % more instructions.
+// The same for users' shaders: texture coordinates and lengths that the material does not read are zero. Shading models
+// do without this clearing, because in batches of few fragments it would take up to 6 % more instructions.
 template <class Shader>
 HWY_INLINE void ShadePackets(const ShadeTask& task, const Shader& shader) {
   Surface<Float> surfaces[2];
@@ -154,6 +133,7 @@ HWY_INLINE void ShadePackets(const ShadeTask& task, const Shader& shader) {
     for (int k = task.material->uv_slots; k < kSurfaceUvSlots; ++k) {
       s.uv[k] = s.duv_dx[k] = s.duv_dy[k] = Vec2<Float>{};
     }
+    s.metres_per_unit = Float(0.0f);
   }
   ShadePackets(task, shader, surfaces);
 }

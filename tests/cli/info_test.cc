@@ -170,6 +170,22 @@ TEST(FacetInfo, JsonStatesParametersThatAreNotTheDefaults) {
   }
 }
 
+TEST(FacetInfo, SaysWhatAMaterialDoesNotUse) {
+  const Folder folder;
+  const std::string in = folder / "in.gltf";
+  WriteText(in, WithMaterials(R"(
+      {"extensions": {"KHR_materials_unlit": {}, "KHR_materials_ior": {"ior": 1.25},
+                      "KHR_materials_clearcoat": {"clearcoatFactor": 1}}},
+      {"extensions": {"KHR_materials_clearcoat": {"clearcoatFactor": 1}}},
+      {"extensions": {"KHR_materials_pbrSpecularGlossiness": {}, "KHR_materials_ior": {"ior": 1.25}}})"));
+  const nlohmann::json materials = Info(in).at("materials");
+  EXPECT_EQ(materials[0].at("ignored"), (nlohmann::json{"clear coat", "index of refraction"}));
+  EXPECT_FALSE(materials[1].contains("ignored"));
+  EXPECT_EQ(materials[2].at("ignored"), (nlohmann::json{"index of refraction"}));
+  const std::string human = RunFacet({"info", in}).out;
+  EXPECT_NE(human.find("not used because it is unlit: clear coat, index of refraction"), std::string::npos) << human;
+}
+
 TEST(FacetInfo, PicturesAreDescribedWithoutDecoding) {
   const Folder folder;
   // The headers of a grey-and-alpha PNG of 640 x 480, and of a JPEG that ends before its size.

@@ -40,7 +40,11 @@ std::string TinyScene(const std::string& extra) {
   Append<std::uint16_t>(bytes, {0, 1, 2, 0, 2, 3});                // indices: 12 bytes, at 48
   Append<float>(bytes, {0, 1});                                    // times: 8 bytes, at 60
   Append<float>(bytes, {0, 0, 0, 10, 0, 0});                       // translations: 24 bytes, at 68
-  return R"({"asset": {"version": "2.0", "generator": "facet's tests"},)" + extra + R"(
+  return R"({"asset": {"version": "2.0", "generator": "facet's tests"},)" +
+         (extra.find("extensionsUsed") == extra.npos
+              ? R"("extensionsUsed": ["KHR_materials_unlit", "KHR_materials_variants"],)" + extra
+              : extra) +
+         R"(
 "scene": 0,
 "scenes": [{"name": "Main", "nodes": [0, 1, 2]}, {"name": "Small", "nodes": [3, 1, 2]},
            {"name": "Lit", "nodes": [4, 1, 2]}],

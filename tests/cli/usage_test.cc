@@ -63,6 +63,7 @@ TEST(FacetHelp, NamesEveryOptionAsTheManualDoes) {
                              "--environment-size",
                              "--environment-samples",
                              "--irradiance",
+                             "--specular-antialiasing",
                              "--tile-size",
                              "--cache",
                              "--max-error",

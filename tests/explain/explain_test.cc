@@ -95,7 +95,7 @@ TEST(Explain, NamesAndCountsWhatTheFrameUses) {
 
   EXPECT_EQ(Costed(e), (std::set<std::string>{"base-color-texture", "metallic-roughness-texture", "normal-texture",
                                               "occlusion", "environment-light", "punctual-lights", "background",
-                                              "multisampling", "anisotropic-filtering"}));
+                                              "multisampling", "anisotropic-filtering", "specular-antialiasing"}));
   EXPECT_EQ(e.environment, "16x8");
   EXPECT_TRUE(e.environment_light && e.environment_background);
   EXPECT_EQ(e.lights.spot, 1);
@@ -154,9 +154,9 @@ TEST(Explain, LayersHaveTheirWordsAndCosts) {
   const Explanation e = Explain(scene, settings);
   ASSERT_EQ(e.materials.size(), 1u);
   EXPECT_EQ(e.materials[0].features, (std::vector<std::string>{"clearcoat", "anisotropy"}));
-  EXPECT_EQ(Costed(e),
-            (std::set<std::string>{"clearcoat", "anisotropy", "anisotropic-filtering", "environment-light"}));
-  EXPECT_EQ(e.costs.size(), 4u) << "that of the surface and that of the filter have names of their own";
+  EXPECT_EQ(Costed(e), (std::set<std::string>{"clearcoat", "anisotropy", "anisotropic-filtering", "environment-light",
+                                              "specular-antialiasing"}));
+  EXPECT_EQ(e.costs.size(), 5u) << "that of the surface and that of the filter have names of their own";
   EXPECT_EQ(CostOf(e, "anisotropy")->option, "--without anisotropy");
   EXPECT_EQ(CostOf(e, "anisotropic-filtering")->option, "--max-anisotropy 1");
   ASSERT_EQ(e.textures.size(), 1u);
@@ -167,6 +167,11 @@ TEST(Explain, LayersHaveTheirWordsAndCosts) {
   EXPECT_EQ(CostOf(e, "clearcoat")->bytes, std::int64_t(e.textures[0].kept->bytes));
   EXPECT_EQ(CostOf(e, "anisotropy")->bytes, std::int64_t(e.first.pose_bytes));
   EXPECT_GT(e.first.pose_bytes, 0u);
+  // The table of albedos is the surface's, not the environment's.
+  EXPECT_GE(CostOf(e, "anisotropy")->first_seconds, e.first.table_seconds);
+  settings.environment = {};
+  settings.environment.kind = EnvironmentSettings::Kind::None;
+  EXPECT_LT(Explain(scene, settings).first.environment_seconds, 1e-3);
 }
 
 // Of a texture of emission: the share that nothing reads. The same image as base colour is read everywhere.
@@ -226,12 +231,13 @@ TEST(Explain, TextAndJsonHaveTheSameNumbers) {
   Explanation e;
   e.width = 640, e.height = 480, e.samples = 4;
   e.frames = 7, e.steady_seconds = 0.010;
+  e.first.environment_seconds = 0.03125, e.first.table_seconds = 0.0625;
   e.materials.push_back({"a\x1b[2Jb\xff", 0, true, {"occlusion"}, 3, 1234567});
   e.first.disabled = {"skins: nothing drawn has one"};
   e.costs.push_back({"occlusion", "--without occlusion", 9, 0.00125, -0.0005, 0.002, 0.25, -2048});
   const std::string text = ToText(e, "x.glb");
   for (const char* part : {"640x480", "1,234,567", "10.00 ms", "1.25", "12.5 %", "-0.50 to 2.00", "250.00", "-2 KiB",
-                           "--without occlusion", "nothing drawn has one"}) {
+                           "albedo tables", "62.50", "--without occlusion", "nothing drawn has one"}) {
     EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
   }
   EXPECT_EQ(text.find('\x1b'), std::string::npos);
@@ -243,6 +249,8 @@ TEST(Explain, TextAndJsonHaveTheSameNumbers) {
   EXPECT_EQ(json["disabled"][0]["what"], "skins");
   EXPECT_EQ(json["disabled"][0]["why"], "nothing drawn has one");
   EXPECT_EQ(json["steady_frame"]["seconds"], 0.010);
+  EXPECT_EQ(json["first_frame"]["environment_seconds"], 0.03125);
+  EXPECT_EQ(json["first_frame"]["table_seconds"], 0.0625);
 }
 
 // --- The promise: with everything switched on, the same bits --------------------------------------------------------

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
 
 #include "everything.h"
 #include "facet/scene.h"
@@ -477,6 +478,38 @@ TEST(Lenient, BytesThatAreNotUtf8AreReplaced) {
   std::string text = Everything().dump();
   text.insert(1, "\"extras\":{\"author\":\"Ren\xE9\"},");
   EXPECT_EQ(Load(text).Warnings().size(), 1u) << "where nothing that is read is touched, too";
+}
+
+// A texture that shows, of the core or of an extension, and whose coordinates the geometry lacks, has a warning.
+TEST(Lenient, TexturesWithoutCoordinatesAreNamed) {
+  struct Case {
+    int material;
+    std::set<std::string> textures;
+  };
+  for (const Case& c : {Case{0,
+                             {"base colour texture", "metallic-roughness texture", "normal texture",
+                              "occlusion texture", "emissive texture"}},
+                        Case{2, {"clear coat texture", "sheen colour texture", "iridescence texture"}}, Case{1, {}}}) {
+    for (const bool missing : {false, true}) {
+      json file = Everything();
+      json& primitive = file["meshes"][0]["primitives"][0];
+      primitive["material"] = c.material;
+      primitive.erase("extensions");
+      for (const char* name : {"TEXCOORD_0", "TEXCOORD_1"}) {
+        if (missing) primitive["attributes"].erase(name);
+      }
+      std::set<std::string> named;
+      const Outcome outcome = Load(file);
+      ASSERT_TRUE(outcome.loaded) << outcome.error;
+      for (const std::string& line : outcome.Warnings()) {
+        const std::string begin = "meshes[0].primitives[0].attributes: TEXCOORD_0 is missing, by which the ";
+        if (line.starts_with(begin)) named.insert(line.substr(begin.size(), line.find(" of materials") - begin.size()));
+      }
+      const bool all = std::includes(named.begin(), named.end(), c.textures.begin(), c.textures.end());
+      EXPECT_TRUE(missing ? all : named.empty()) << c.material;
+      if (c.material == 1) EXPECT_TRUE(named.empty()) << "it reads none";
+    }
+  }
 }
 
 }  // namespace

@@ -152,7 +152,14 @@ const TextureRow kTextures[] = {
 // --- Files with one material ----------------------------------------------------------------------------------------
 
 json FileWith(const json& material) {
+  json extensions = {"KHR_texture_transform"};
+  for (const char* name :
+       {"anisotropy", "clearcoat", "diffuse_transmission", "dispersion", "emissive_strength", "ior", "iridescence",
+        "pbrSpecularGlossiness", "sheen", "specular", "transmission", "unlit", "volume"}) {
+    extensions.push_back(std::string("KHR_materials_") + name);
+  }
   return {{"asset", {{"version", "2.0"}}},
+          {"extensionsUsed", extensions},
           {"images", {{{"uri", "data:image/png;base64,AAAA"}}}},
           {"textures", {{{"source", 0}}, {{"source", 0}}}},
           {"materials", {material}}};
@@ -297,16 +304,53 @@ TEST(MaterialParameters, OutOfRangeAreReplacedWithAWarningThatSaysAll) {
   colors(kColorsWithAlpha);
 }
 
-// Exporters repeat their mistakes: the same one in many materials is one line, and others stay apart.
+// Exporters repeat their mistakes: the same one in many materials is one line, whatever the values, and others stay
+// apart.
 TEST(MaterialParameters, TheSameMistakeIsSaidOnce) {
   json file = FileWith(With("/extensions/KHR_materials_ior/ior", 0.5));
   file["materials"].push_back(file["materials"][0]);
   file["materials"].push_back(With("/extensions/KHR_materials_ior/ior", 0.25));
+  file["materials"].push_back(With("/extensions/KHR_materials_ior/ior", -1e-30));
+  file["materials"].push_back(With("/extensions/KHR_materials_clearcoat/clearcoatFactor", 2));
   EXPECT_EQ(ReadText(file.dump()).warnings,
             (Lines{"materials[0].extensions.KHR_materials_ior.ior: index of refraction 0.5 is out of range; 1 is used "
-                   "(and in 1 more place)",
-                   "materials[2].extensions.KHR_materials_ior.ior: index of refraction 0.25 is out of range; 1 is "
-                   "used"}));
+                   "(and in 3 more places)",
+                   "materials[4].extensions.KHR_materials_clearcoat.clearcoatFactor: clear coat factor 2 is out of "
+                   "range; 1 is used"}));
+}
+
+// A name that an extension does not have is most likely misspelt.
+TEST(MaterialParameters, UnknownNamesInExtensionsAreIgnoredWithAWarning) {
+  json file = FileWith(With("/extensions/KHR_materials_clearcoat/clearcoatRoughnes", 0.5));
+  file["materials"].push_back(file["materials"][0]);
+  file["materials"].push_back(With("/extensions/KHR_materials_unlit/color", 0.5));
+  json nested = With("/extensions/KHR_materials_ior/extensions/ABC_more/any", 1);
+  nested["extensions"]["KHR_materials_ior"]["extras"]["any"] = 1;
+  file["materials"].push_back(nested);
+  file["extensionsUsed"].push_back("ABC_more");
+  Lines lines = ReadText(file.dump()).warnings;
+  std::erase_if(lines, [](const std::string& line) { return line.find("no such property") == line.npos; });
+  EXPECT_EQ(lines, (Lines{"materials[0].extensions.KHR_materials_clearcoat.clearcoatRoughnes: ignored: "
+                          "KHR_materials_clearcoat has no such property, but clearcoatFactor, clearcoatNormalTexture, "
+                          "clearcoatRoughnessFactor, clearcoatRoughnessTexture, clearcoatTexture (and in 1 more place)",
+                          "materials[2].extensions.KHR_materials_unlit.color: ignored: KHR_materials_unlit has no such "
+                          "property, and no other"}));
+}
+
+TEST(MaterialParameters, ExtensionsThatAreNotListedAreReadWithAWarning) {
+  json file = FileWith(With("/extensions/KHR_materials_ior/ior", 1.25));
+  file["materials"].push_back(file["materials"][0]);
+  file["materials"][1]["extensions"]["ABC_unheard_of"] = json::object();
+  file["materials"][1]["extras"]["extensions"]["ABC_of_others"] = json::object();
+  file.erase("extensionsUsed");
+  const Read read = ReadText(file.dump());
+  EXPECT_EQ(read.material.ior, 1.25f);
+  EXPECT_EQ(
+      read.warnings,
+      (Lines{"materials[1].extensions.ABC_unheard_of: ignored: is not supported, and extensionsUsed does not list "
+             "it",
+             "materials[0].extensions.KHR_materials_ior: is read, although extensionsUsed does not list it (and "
+             "in 1 more place)"}));
 }
 
 TEST(MaterialParameters, NumbersTooLargeForFloatsBecomeTheLargest) {

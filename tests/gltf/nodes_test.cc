@@ -124,6 +124,7 @@ TEST(Nodes, InstancesAndVisibility) {
 
 TEST(Nodes, NoInstancesAreNoMesh) {
   FileMaker file;
+  file.RootMore() = ",\"extensionsUsed\":[\"EXT_mesh_gpu_instancing\"]";
   file.Attribute("POSITION", file.Triangle());
   file.NodeMore() = ",\"extensions\":{\"EXT_mesh_gpu_instancing\":{\"attributes\":{\"TRANSLATION\":" +
                     std::to_string(file.Accessor(-1, 5126, 0, "VEC3")) + "}}}";
@@ -154,6 +155,7 @@ TEST(Nodes, WhatNothingHangsFromMayBeBroken) {
     FileMaker file;
     file.Attribute("POSITION", file.Triangle());
     file.NodesMore() = std::string(",") + broken;
+    file.RootMore() = ",\"extensionsUsed\":[\"EXT_mesh_gpu_instancing\"]";
     std::string json = file.Json();
     json.replace(json.find("\"nodes\":[0]"), 11, "\"nodes\":[0,1]");
     EXPECT_EQ(LoadBytes(testing::Glb(json, file.Bin())).report.warnings.size(), 1u) << broken;

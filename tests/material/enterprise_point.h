@@ -48,6 +48,8 @@ struct EnterprisePoint {
   lanes::Vec3<T> InterpolatedNormal() const { return Normal(); }
   lanes::Vec4<T> Tangent() const { return {T(1.0f), T(0.0f), T(0.0f), T(1.0f)}; }
   lanes::UvFootprint<T> FirstUv() const { return uv; }
+  T MetresPerUnit() const { return T(1.0f); }
+  T FootprintAlpha2() const { return T(0.0f); }
 
   lanes::EnterpriseScattering<T> From(const lanes::Vec3<T>& view, const lanes::LightingView<T>& lighting) const {
     const glm::vec3& a = p.albedo.value;

@@ -83,8 +83,9 @@ const LayerCase kLayers[] = {
      [](Material& m) { m.transmission_factor = 0.1f, m.thickness_factor = 1.0f, m.dispersion = 1.0f; }, false, true},
     {"diffuse transmission", kDiffuseTransmission, [](Material& m) { m.diffuse_transmission_factor = 0.1f; }, false,
      true},
-    {"thickness without transmission", kDiffuseTransmission,
-     [](Material& m) { m.diffuse_transmission_factor = 0.1f, m.thickness_factor = 1.0f; }, false, true},
+    {"volume behind diffuse transmission", kDiffuseTransmission | kVolume,
+     [](Material& m) { m.diffuse_transmission_factor = 0.1f, m.thickness_factor = m.dispersion = 1.0f; }, false, true},
+    {"thickness without transmission", 0, [](Material& m) { m.thickness_factor = 1.0f; }, true, true},
     {"iridescence", kIridescence, [](Material& m) { m.iridescence_factor = 0.1f; }, true, true},
     {"anisotropy", kAnisotropy, [](Material& m) { m.anisotropy_strength = 0.1f; }, true, true},
 };

@@ -58,10 +58,10 @@ TEST(EnterprisePlan, AVolumeWithoutThicknessHasTheMeanChord) {
   Add(scene, Sphere(0.5f, 64, 128), measured, Scaled(2.0));
   Add(scene, Sphere(0.5f, 64, 128), stated, Scaled(2.0));
   const FramePlan plan = PlanOf(scene);
-  EXPECT_NEAR(PlannedAt(plan, 0).thickness, 4.0f / 3.0f, 0.01f);
-  EXPECT_NEAR(PlannedAt(plan, 1).thickness, 0.5f, 1e-6f);
+  EXPECT_NEAR(PlannedAt(plan, 0).thickness, 2.0f / 3.0f, 0.005f) << "in units of the mesh";
+  EXPECT_NEAR(PlannedAt(plan, 1).thickness, 0.25f, 1e-6f);
   EXPECT_TRUE(plan.materials[0].frame.is_seen_through);
-  EXPECT_NEAR(plan.materials[1].frame.factors.thickness, 0.5f, 1e-6f);
+  EXPECT_NEAR(plan.materials[1].frame.factors.thickness, 0.25f, 1e-6f);
 }
 
 TEST(EnterprisePlan, FlakesKnowTheScaleOfTheTexture) {

@@ -51,6 +51,20 @@ TEST(FramePlan, WhatIsDisabledHasAReason) {
   }
 }
 
+TEST(FramePlan, SaysThatUnlitMaterialsUseNoLayers) {
+  Material material = Unlit(glm::vec4(1.0f));
+  material.clearcoat_factor = material.transmission_factor = 1.0f;
+  Scene scene = LitSphere(material);
+  const char* const reason = "clear coat: only unlit materials state it, and show the base colour alone";
+  const auto says = [&](const FramePlan& plan) {
+    return std::find(plan.disabled.begin(), plan.disabled.end(), reason) != plan.disabled.end();
+  };
+  EXPECT_TRUE(says(PlanOf(scene, StudioSettings())));
+  material.model = ShadingModel::MetallicRoughness;
+  Add(scene, Sphere(1.0f, 4, 4), AddMaterial(scene, material));
+  EXPECT_FALSE(IsDisabled(PlanOf(scene, StudioSettings()), "clear coat"));
+}
+
 TEST(FramePlan, MipFilterIsABoundOnWhatSamplersAskFor) {
   for (const MipFilter asked : {MipFilter::None, MipFilter::Nearest, MipFilter::Linear}) {
     for (const MipFilter bound : {MipFilter::None, MipFilter::Nearest, MipFilter::Linear}) {

@@ -277,6 +277,72 @@ TEST(ReferenceGlass, APrismReflectsAll) {
   }
 }
 
+// The same, but open where the ray goes: it was to leave by the hypotenuse, which reflects all, and is in the medium
+// for ever. What the medium does not absorb at all comes from nowhere; of the rest nothing comes.
+TEST(ReferenceGlass, ARayThatNeverLeavesItsMedium) {
+  Primitive open;
+  open.positions = {{-1, -1, 0},  {1, -1, 0},  {1, 1, 0},  {-1, 1, 0},    // the leg that it enters by
+                    {-1, -1, -3}, {-1, 1, -3}, {1, 1, -1}, {1, -1, -1}};  // the hypotenuse
+  open.indices = {0, 1, 2, 0, 2, 3, 4, 5, 6, 4, 6, 7};
+  Material glass = SolidGlass(glm::vec3(1.0f), 1.5f);
+  glass.attenuation_color = {0.9f, 1.0f, 0.9f};
+  Scene scene;
+  const int material = AddMaterial(scene, glass);
+  Add(scene, open, material);
+  const double left = ClosedForm(glm::dvec3(1.0), 0.0, kSmoothest).LeftAt(1.0);
+  for (const bool absorbs : {false, true}) {
+    if (absorbs) scene.materials[std::size_t(material)].attenuation_distance = 1e6f;
+    const ReferenceFilm film = RenderReference(scene, OneRay(-0.3, 0.1), Effort(1, 1, 2));
+    const double of_absorbed = absorbs ? 0.0 : left;
+    ASSERT_EQ(film.through.size(), 1u);
+    ExpectNear(film.through[0], {of_absorbed, left, of_absorbed}, 1e-6, "from nowhere");
+    EXPECT_NEAR(film.pixels[0].w, 1.0 - (left + 2.0 * of_absorbed) / 3.0, 1e-6);
+    EXPECT_EQ(glm::dvec3(film.pixels[0]), glm::dvec3(0.0));
+    RenderSettings settings = OneRay(-0.3, 0.1);
+    settings.environment = ConstantEnvironment(0.5f);
+    settings.background = Background::Environment;
+    const ReferenceFilm bright = RenderReference(scene, settings, Effort(64, 16, 16));
+    EXPECT_TRUE(bright.through.empty());
+    const double reflected = 0.5 * (1.0 - left);
+    ExpectNear(glm::dvec3(bright.pixels[0]), glm::dvec3(of_absorbed, left, of_absorbed) * 0.5 + reflected, 2e-3, "lit");
+  }
+}
+
+// Light that passes a surface diffusely is absorbed over the stated thickness, in metres.
+TEST(ReferenceGlass, AVolumeAbsorbsWhatPassesDiffusely) {
+  for (const float transmission : {0.0f, 0.5f}) {
+    for (const bool from_behind : {false, true}) {
+      Material material;
+      material.metallic_factor = 0.0f;
+      material.diffuse_transmission_factor = 1.0f;
+      material.transmission_factor = transmission;
+      material.ior = 1.0f;
+      material.double_sided = true;
+      Scene scene;
+      const int index = AddMaterial(scene, material);
+      Transform transform = TurnedAboutY(from_behind ? kPi : 0.0);
+      transform.scale = glm::dvec3(0.5);
+      Add(scene, Rectangle(-4, -4, 4, 4), index, transform);
+      Light light;
+      light.type = LightType::Directional;
+      light.intensity = 3.0f;
+      scene.lights.push_back(light);
+      Node node;
+      node.light = 0;
+      node.transform = TurnedAboutY(2.8);
+      scene.nodes.push_back(node);
+      const glm::dvec4 thin = Seen(scene, OneRay());
+      EXPECT_GT(thin.y, 0.1);
+      Material& thick = scene.materials[std::size_t(index)];
+      thick.thickness_factor = 0.6f;
+      thick.attenuation_color = {0.5f, 1.0f, 0.25f};
+      thick.attenuation_distance = 0.3f;
+      const glm::dvec3 expected = from_behind ? glm::dvec3(1.0) : glm::dvec3(0.5, 1.0, 0.25);
+      ExpectNear(glm::dvec3(Seen(scene, OneRay())) / glm::dvec3(thin), expected, 1e-6, "absorbed");
+    }
+  }
+}
+
 // Each channel is displaced by its own index: 20 / dispersion is the Abbe number.
 TEST(ReferenceGlass, DispersionBendsEachChannelByItsOwn) {
   Material glass = SolidGlass(glm::vec3(1.0f), 1.6f);

@@ -71,6 +71,37 @@ TEST(OwnShader, SeesZeroWhereTheMaterialReadsNoTextureCoordinates) {
   }
 }
 
+// A functor has no way to say what is seen through a surface, so it gets the material without transmission, and the
+// surface hides what is behind it. The volume stays where light passes diffusely.
+TEST(OwnShader, GetsMaterialsWithoutTransmission) {
+  const auto shader = MakeShowModel();
+  RenderSettings settings = Settings(40, 40, 1, Orthographic(1.0));
+  settings.environment = ConstantEnvironment(1.0f);
+  for (const float diffuse : {0.0f, 0.5f}) {
+    Material glass;
+    glass.base_color_factor = {0.2f, 0.5f, 0.9f, 1.0f};
+    glass.metallic_factor = 0.0f;
+    glass.diffuse_transmission_factor = diffuse;
+    glass.thickness_factor = 0.5f;
+    glass.attenuation_color = {0.5f, 0.25f, 1.0f};
+    glass.attenuation_distance = 0.5f;
+    Film films[2];
+    for (const bool transmits : {false, true}) {
+      glass.transmission_factor = transmits ? 0.75f : 0.0f;
+      glass.dispersion = transmits ? 1.0f : 0.0f;
+      Scene scene;
+      Add(scene, Rectangle(-1, -1, 1, 1), AddMaterial(scene, glass));
+      Add(scene, Rectangle(-1, -1, 1, 1, -1), AddMaterial(scene, Unlit({1.0f, 0.0f, 0.0f, 1.0f})));
+      settings.shader = shader.get();
+      films[transmits] = Render(scene, settings);
+      settings.shader = nullptr;
+      EXPECT_EQ(SameBytes(Render(scene, settings), films[transmits]), !transmits);
+    }
+    EXPECT_TRUE(SameBytes(films[0], films[1]));
+    EXPECT_EQ(films[1].pixels[0].a, 1.0f);
+  }
+}
+
 TEST(OwnShader, TheModelOfAMaterialIsWhatItShowsWithoutAShader) {
   Scene scene;
   Add(scene, Card(-1, 0), AddMaterial(scene, Textured(scene)));

@@ -69,6 +69,8 @@ TEST(Renderer, FramesEqualSingleRenderings) {
   expect_equal("samples of the environment");
   settings.irradiance = IrradianceMethod::SphericalHarmonics;
   expect_equal("irradiance");
+  settings.specular_antialiasing = false;
+  expect_equal("no specular antialiasing");
   settings.environment.rotation = 1.0;
   expect_equal("rotation");
   settings.environment.intensity = 0.5;

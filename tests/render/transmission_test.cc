@@ -68,6 +68,18 @@ void ExpectNear(const glm::vec4& got, const glm::vec4& want, float tolerance) {
   for (int c = 0; c < 4; ++c) EXPECT_NEAR(got[c], want[c], tolerance) << "component " << c;
 }
 
+// A lamp far behind, which shines at the camera.
+void AddLampBehind(Scene& scene) {
+  Light light;
+  light.type = LightType::Directional;
+  light.intensity = 3.0f;
+  scene.lights.push_back(light);
+  Node node;
+  node.light = 0;
+  node.transform.rotation = glm::dquat(std::cos(1.4), 0.0, std::sin(1.4), 0.0);
+  scene.nodes.push_back(node);
+}
+
 // What a smooth clear pane lets pass, straight ahead: 1 - 0.04.
 constexpr float kClear = 0.96f;
 
@@ -139,6 +151,59 @@ TEST(Transmission, LeavesATransparentBackgroundTransparent) {
   ExpectNear(PixelAt(film, 20, 20), {0, 0, 0, 1.0f - 0.5f * kClear * kClear}, 3e-3f);
 }
 
+// A background that is chosen for a picture shows through each channel by its own tint; alpha has only the mean.
+TEST(Transmission, ABackgroundShowsThroughInTheColourOfTheGlass) {
+  const glm::vec3 tint(0.2f, 0.4f, 0.9f), back(0.8f, 0.5f, 0.3f);
+  DisplaySettings display;
+  display.background_srgb = back;
+  for (const int samples : {1, 4}) {
+    Scene scene;
+    AddPane(scene, 0, Glass(tint), 0.5f);
+    Add(scene, Rectangle(-0.1f, -0.5f, 0.1f, 0.5f, 0.5f), AddMaterial(scene, Unlit({0.1f, 0.2f, 0.3f, 1.0f})));
+    Material half = Glass({1.0f, 0.0f, 0.0f});
+    half.alpha_mode = AlphaMode::Blend;
+    half.base_color_factor.a = 0.5f;
+    Add(scene, Rectangle(0.2f, -0.5f, 0.3f, 0.5f, 0.5f), AddMaterial(scene, half));
+    Renderer renderer(scene);
+    Film film;
+    renderer.Render(FlatView(samples), film);
+    const Image image = EncodeFilm(film, display, ChannelType::F32);
+    ASSERT_EQ(image.channels, 3);
+    const auto at = [&](int x, int y) {
+      const float* p = image.As<float>() + 3 * (y * kSize + x);
+      return glm::vec3(p[0], p[1], p[2]);
+    };
+    glm::vec3 linear;
+    for (int c = 0; c < 3; ++c) linear[c] = std::pow((back[c] + 0.055f) / 1.055f, 2.4f);
+    for (int c = 0; c < 3; ++c) {
+      EXPECT_NEAR(at(20, 32)[c], linear[c] * tint[c] * kClear, 2e-3f) << c;
+      EXPECT_NEAR(at(2, 2)[c], linear[c], 1e-6f) << c;
+      EXPECT_NEAR(at(32, 32)[c], 0.1f * float(c + 1), 1e-6f) << c;
+      const float half_passes = 0.5f + (c == 0 ? 0.5f * kClear : 0.0f);
+      EXPECT_NEAR(at(40, 32)[c], linear[c] * tint[c] * kClear * half_passes, 2e-3f) << c;
+    }
+    // The same in pictures that are encoded tile by tile, and in bands.
+    for (const ChannelType type : {ChannelType::U8, ChannelType::U16, ChannelType::F32}) {
+      const Image whole = EncodeFilm(film, display, type);
+      Image direct;
+      renderer.RenderImage(FlatView(samples), display, direct, nullptr, type);
+      EXPECT_EQ(direct.bytes, whole.bytes);
+      Image bands = whole;
+      bands.bytes.clear();
+      RenderBands(scene, FlatView(samples), 16, [&](const Film& band, int) {
+        const Image part = EncodeFilm(band, display, type);
+        bands.bytes.insert(bands.bytes.end(), part.bytes.begin(), part.bytes.end());
+      });
+      EXPECT_EQ(bands.bytes, whole.bytes);
+    }
+    // The next frame, which has no glass, has none of it.
+    RenderSettings opaque = FlatView(samples);
+    opaque.without = {Feature::Transmission};
+    renderer.Render(opaque, film);
+    EXPECT_TRUE(film.through.empty());
+  }
+}
+
 TEST(Transmission, WhiteGlassInAnEvenLightCannotBeSeen) {
   for (const Material& glass :
        {Glass(glm::vec3(1.0f)), Glass(glm::vec3(1.0f), 0.6f), Slab(0.5f, 1.5f), Slab(0.5f, 2.0f, 0.4f), [] {
@@ -183,6 +248,83 @@ TEST(Transmission, ASlabShiftsWhatIsBehindBySnellsLaw) {
   }
 }
 
+// Light that passes a surface diffusely is absorbed by the volume behind it as what is seen through it is, over the
+// thickness in metres; behind back faces there is none, nor where a texel says so.
+TEST(Transmission, AVolumeAbsorbsWhatPassesDiffusely) {
+  const float thickness = 0.6f, scale = 0.5f;
+  for (const ShadingModel model : {ShadingModel::MetallicRoughness, ShadingModel::SpecularGlossiness}) {
+    for (const float transmission : {0.0f, 0.5f}) {
+      for (const int side : {0, 1, 2}) {  // front, back, front where the texture is 0
+        Scene scene;
+        AddLampBehind(scene);
+        Material m;
+        m.model = model;
+        m.metallic_factor = 0.0f;
+        m.specular_glossiness_specular_factor = glm::vec3(0.04f);
+        m.diffuse_transmission_factor = 1.0f;
+        m.transmission_factor = transmission;
+        m.ior = 1.0f;
+        m.double_sided = true;
+        if (side == 2) {
+          m.thickness_texture = Ref(AddTexture(scene, MakeImage(1, 1, [](int, int) { return glm::u8vec4(0); })));
+        }
+        const int material = AddMaterial(scene, m);
+        const auto turn = side == 1 ? glm::dquat(0, 0, 1, 0) : glm::dquat(1, 0, 0, 0);
+        Add(scene, Rectangle(-9, -9, 9, 9), material, At({0, 0, 0}, turn, glm::dvec3(double(scale))));
+        RenderSettings settings = FlatView();
+        settings.without = {Feature::Transmission};
+        if (transmission > 0.0f) settings.without = {};
+        const glm::vec4 thin = PixelAt(Render(scene, settings), 20, 20);
+        EXPECT_GT(thin.y, 0.1f);
+        Material& thick = scene.materials[std::size_t(material)];
+        thick.thickness_factor = thickness;
+        thick.attenuation_color = {0.5f, 1.0f, 0.25f};
+        thick.attenuation_distance = 0.3f;
+        const glm::vec4 pixel = PixelAt(Render(scene, settings), 20, 20);
+        for (int c = 0; c < 3; ++c) {
+          const float path = side == 0 ? thickness * scale / 0.3f : 0.0f;
+          EXPECT_NEAR(pixel[c] / thin[c], std::pow(thick.attenuation_color[c], path), 1e-5f)
+              << c << " of " << side << ", transmission " << transmission;
+        }
+      }
+    }
+  }
+}
+
+// Where no volume begins, a rough surface spreads light as a thin wall does: twice as wide as glass of 1.5 would.
+TEST(Transmission, WhereNoVolumeBeginsTheWallIsThin) {
+  const auto seen = [](int kind) {  // 0: a thin wall, 1: a volume, 2: from behind, 3: where the texture is 0
+    Scene scene;
+    AddWall(scene, -1.0001f, {0, 0, 0});
+    Add(scene, Rectangle(0, -30, 30, 30, -1), AddMaterial(scene, Unlit(glm::vec4(1.0f))));
+    Material m = Slab(kind == 0 ? 0.0f : 0.01f, 1.5f, 0.4f);
+    m.double_sided = true;
+    m.attenuation_color = glm::vec3(0.01f);
+    m.attenuation_distance = 0.01f;
+    if (kind == 3) {
+      m.thickness_texture = Ref(AddTexture(scene, MakeImage(1, 1, [](int, int) { return glm::u8vec4(0); })));
+    }
+    Add(scene, Rectangle(-2, -2, 2, 2), AddMaterial(scene, m),
+        At({0, 0, 0}, kind == 2 ? glm::dquat(0, 0, 1, 0) : glm::dquat(1, 0, 0, 0)));
+    return Render(scene, Settings(kSize, kSize, 4, Perspective(0.3, {0, 0, 6})));
+  };
+  const Film thin = seen(0), volume = seen(1);
+  for (const int kind : {2, 3}) {
+    const Film film = seen(kind);
+    for (std::size_t i = 0; i < film.pixels.size(); ++i) {
+      for (int c = 0; c < 4; ++c) ASSERT_NEAR(film.pixels[i][c], thin.pixels[i][c], 1e-5f) << kind << " at " << i;
+    }
+  }
+  const auto width = [](const Film& film) {  // of the blurred edge, in pixels, from its steepest step
+    float steepest = 0.0f;
+    for (int x = 1; x < kSize; ++x) {
+      steepest = std::max(steepest, PixelAt(film, x, 32).x - PixelAt(film, x - 1, 32).x);
+    }
+    return PixelAt(film, kSize - 1, 32).x / steepest;
+  };
+  EXPECT_GT(width(thin), 2.5f * width(volume));
+}
+
 TEST(Transmission, NothingInFrontIsSeenThrough) {
   for (const float roughness : {0.0f, 0.2f, 0.7f}) {
     for (const float thickness : {0.0f, 0.5f, 3.0f}) {
@@ -203,6 +345,38 @@ TEST(Transmission, NothingInFrontIsSeenThrough) {
         ASSERT_EQ(film.pixels[i].x, 0.0f) << i << " " << roughness << " " << thickness;
       }
     }
+  }
+}
+
+// A bar in front of a ball hides a part of what the ball shows elsewhere. What is missing is filled from around: over a
+// wall whose colour changes evenly, that is what is there, and nowhere is there a seam.
+TEST(Transmission, WhatABarInFrontHidesIsFilledWithoutASeam) {
+  const auto add_all = [](Scene& scene, float roughness, bool bar) {
+    Primitive wall = Rectangle(-9, -9, 9, 9, -3);
+    for (const glm::vec3& at : wall.positions) wall.colors.emplace_back(0.5 + at.x / 6.0, 0.5 + at.y / 6.0, 0.5, 1.0);
+    Add(scene, std::move(wall), AddMaterial(scene, Unlit(glm::vec4(1.0f))));
+    Add(scene, Sphere(0.9f, 64, 128), AddMaterial(scene, Slab(0.9f, 1.5f, roughness)));
+    if (bar) Add(scene, Rectangle(-0.07f, -2, 0.08f, 2, 1.5f), AddMaterial(scene, Unlit({1, 0, 0, 1})));
+  };
+  for (const float roughness : {0.0f, 0.2f}) {
+    Scene with, without, front;
+    add_all(with, roughness, true), add_all(without, roughness, false);
+    Add(front, Rectangle(-0.07f, -2, 0.08f, 2, 1.5f), AddMaterial(front, Unlit({1, 0, 0, 1})));
+    const RenderSettings settings = Settings(96, 96, 4, Perspective(0.4, {0, 0, 6}));
+    const Film covered = Render(front, settings), film = Render(with, settings), whole = Render(without, settings);
+    double largest = 0.0, sum = 0.0;
+    int changed = 0;
+    for (std::size_t i = 0; i < film.pixels.size(); ++i) {
+      if (covered.pixels[i].a > 0.0f || film.pixels[i] == whole.pixels[i]) continue;
+      ++changed;
+      for (int c = 0; c < 3; ++c) {
+        const double off = std::fabs(double(film.pixels[i][c] - whole.pixels[i][c]));
+        largest = std::max(largest, off), sum += off / 3;
+      }
+    }
+    EXPECT_GT(changed, 100);
+    EXPECT_LT(largest, 0.03) << roughness;
+    EXPECT_LT(sum / changed, 0.01) << roughness;
   }
 }
 

@@ -143,6 +143,10 @@ TEST(Choose, TakesANameOrAnIndex) {
             std::string::npos);
   EXPECT_NE(Complaint([&] { Choose("--camera", "camera", "-1", names); }).find("called '-1'"), std::string::npos);
   EXPECT_NE(Complaint([&] { Choose("--camera", "camera", "Twin", names); }).find("more than one"), std::string::npos);
+  EXPECT_NE(Complaint([&] { Choose("--camera", "camera", "7", names); }).find("its cameras are 0 'Front', 1, 2 'Back'"),
+            std::string::npos);
+  EXPECT_NE(Complaint([&] { Choose("--camera", "camera", "7", {""}); }).find("its only camera is 0"),
+            std::string::npos);
   EXPECT_NE(Complaint([&] { Choose("--camera", "camera", "0", {}); }).find("the file has no cameras"),
             std::string::npos);
 }

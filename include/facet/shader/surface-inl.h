@@ -25,7 +25,13 @@ struct Surface {
   // tangent is zero unless the material has a texture in tangent space that could be decoded, or is anisotropic.
   Vec3<T> interpolated_normal;
   Vec4<T> tangent;
+  // By how much the square of GGX's alpha grows where the pixel's reflections are filtered, because the normal turns
+  // within the pixel; 0 where it does not, or where specular antialiasing is off.
+  T footprint_alpha2{};
   Vec4<T> color;     // vertex colour, linear; 1 where there is none
+  // Metres per unit of the mesh, in which thickness is stated, where a volume begins behind the surface; 0 behind its
+  // back faces, which begin none. Zero too if the material has no volume.
+  T metres_per_unit;
   // Texture coordinates of each UV set that the material reads, and their derivatives over one pixel to the right and
   // down. The other sets are zero.
   Vec2<T> uv[kSurfaceUvSlots], duv_dx[kSurfaceUvSlots], duv_dy[kSurfaceUvSlots];

@@ -33,9 +33,10 @@ struct ClearcoatLobe {
   HWY_INLINE ClearcoatLobe() {}  // for a lobe that a material does not have
 
   template <class Lighting>
-  HWY_INLINE ClearcoatLobe(const ClearcoatInputs<T>& in, const Vec3<T>& view, const Lighting& lighting)
+  HWY_INLINE ClearcoatLobe(const ClearcoatInputs<T>& in, T footprint_alpha2, const Vec3<T>& view,
+                           const Lighting& lighting)
       : at{in.normal, view, Clamp(Dot(in.normal, view), T(kMinNDotV), T(1.0f))},
-        microfacets(in.perceptual_roughness),
+        microfacets(WidenedRoughness(in.perceptual_roughness, footprint_alpha2)),
         factor(Clamp(in.factor, T(0.0f), T(1.0f))) {
     albedo = lighting.Dfg(at.n_dot_v, microfacets.perceptual_roughness);
     const SpecularAlbedo<T> average = lighting.DfgAverage(microfacets.perceptual_roughness);
@@ -55,8 +56,9 @@ struct ClearcoatLobe {
 
   // `unclamped_roughness`: the material's.
   template <class Lighting>
-  HWY_INLINE Vec3<T> Environment(T unclamped_roughness, const Lighting& lighting) const {
-    const Vec3<T> prefiltered = lighting.Prefiltered(microfacets.DominantDirection(at), unclamped_roughness);
+  HWY_INLINE Vec3<T> Environment(T unclamped_roughness, T footprint_alpha2, const Lighting& lighting) const {
+    const Vec3<T> prefiltered =
+        lighting.Prefiltered(microfacets.DominantDirection(at), unclamped_roughness, footprint_alpha2);
     const T single = factor * (T(kDielectricF0) * albedo.a + albedo.b);
     const T multiple = factor * multiple_fresnel * LostEnergy(albedo);
     return prefiltered * single + lighting.IrradianceOverPi(at.normal) * multiple;

@@ -23,6 +23,23 @@ HWY_INLINE T ToNormal(T alpha) {
   return alpha * alpha * (T(1.5f) + alpha * (T(0.35f) - alpha * T(0.95f)));
 }
 
+// Where widening a lobe shows: not where the footprint is 0, nor where the lobe's own square of alpha is 64 times that,
+// so that the roughness would grow by less than 0.4 %. Most packets of rough surfaces are spared the arithmetic.
+template <class T>
+HWY_INLINE MaskOf<T> IsWidened(T perceptual_roughness, T footprint_alpha2) {
+  const T alpha = AlphaFromPerceptualRoughness(perceptual_roughness);
+  return footprint_alpha2 > alpha * alpha * T(1.0f / 64.0f);
+}
+
+// The perceptual roughness of a lobe whose square of alpha grows by `footprint_alpha2`.
+template <class T>
+HWY_INLINE T WidenedRoughness(T perceptual_roughness, T footprint_alpha2) {
+  const MaskOf<T> wider = IsWidened(perceptual_roughness, footprint_alpha2);
+  if (!Any(wider)) return perceptual_roughness;
+  const T alpha = AlphaFromPerceptualRoughness(perceptual_roughness);
+  return Select(wider, Sqrt(Sqrt(alpha * alpha + footprint_alpha2)), perceptual_roughness);
+}
+
 template <class T>
 struct Microfacets {
   T alpha{};                 // GGX's width

@@ -1,10 +1,9 @@
-// Light that passes straight through a surface (KHR_materials_transmission) and through the medium behind it
+// Light that passes straight through a surface (KHR_materials_transmission) and is refracted by the medium behind it
 // (KHR_materials_volume, KHR_materials_dispersion). What is seen through the surface is multiplied by `color`; where it
 // is seen, and how far it is blurred, follows from RefractedPath() and Spread().
 //
 // A thin wall (thickness 0) does not refract. A volume is a flat slab of the given thickness: the view is refracted
-// once, by Snell's law at the shading normal, and leaves it after that distance, which the absorption of the medium
-// (Beer and Lambert) counts, too.
+// once, by Snell's law at the shading normal, and leaves it after that distance, which its absorption counts, too.
 //
 // A rough surface scatters what it transmits as it would reflect it, mirrored to its other side, with a Fresnel term of
 // 1 and with multiple scattering, so that the lobe's integral is 1. Its width is that of the reflection times
@@ -18,7 +17,6 @@
 #define FACET_MATERIAL_LOBES_TRANSMISSION_INL_H_
 #endif
 
-#include "facet/shader/elementary-inl.h"
 #include "material/lobes/diffuse-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -27,10 +25,8 @@ namespace HWY_NAMESPACE {
 
 template <class T>
 struct TransmissionInputs {
-  T factor{};          // [0, 1]
-  Vec3<T> ior{};       // for red, green and blue; 1 or more
-  T thickness{};       // of the volume; 0: a thin wall. Units of the mesh; metres in the lobe
-  Vec3<T> absorption{};  // per metre; read if the material has a volume
+  T factor{};     // [0, 1]
+  Vec3<T> ior{};  // for red, green and blue; 1 or more
 };
 
 template <class T>
@@ -38,24 +34,22 @@ struct TransmissionLobe {
   Vec3<T> color;               // of the light that passes: without what the interface and layers above it reflect
   Microfacets<T> microfacets;  // of the mirrored reflection
   T unclamped_alpha{};         // GGX's width of the same: 0 for a smooth surface
+  // What its single scattering loses, towards the view and on average.
+  T lost_for_view{}, lost_average{};
 
   HWY_INLINE TransmissionLobe() {}  // for a lobe that a material does not have
 
   // `base`: clamped to 1. `roughness`: of the specular lobe.
-  HWY_INLINE TransmissionLobe(const TransmissionInputs<T>& in, bool has_volume, const Vec3<T>& base, T metallic,
-                              T roughness) {
+  template <class Lighting>
+  HWY_INLINE TransmissionLobe(const TransmissionInputs<T>& in, const SurfaceView<T>& at, const Vec3<T>& base,
+                              T metallic, T roughness, const Lighting& lighting) {
     const T zero(0.0f), one(1.0f);
     color = base * (Clamp(in.factor, zero, one) * (one - metallic));
-    if (has_volume) color = color * Passing(in.absorption, in.thickness);
     const T bounded = Clamp(roughness, zero, one);
     unclamped_alpha = AlphaFromPerceptualRoughness(bounded) * Clamp(T(2.0f) * in.ior.y - T(2.0f), zero, one);
     microfacets = Microfacets<T>(Sqrt(unclamped_alpha));
-  }
-
-  // The share of light that a path through the medium leaves.
-  static HWY_INLINE Vec3<T> Passing(const Vec3<T>& absorption, T path) {
-    const auto of = [&](T a) HWY_ATTR { return Exp(Max(-(a * path), T(-100.0f))); };
-    return {of(absorption.x), of(absorption.y), of(absorption.z)};
+    lost_average = Max(LostEnergy(lighting.DfgAverage(microfacets.perceptual_roughness)), T(1e-6f));
+    lost_for_view = LostEnergy(lighting.Dfg(at.n_dot_v, microfacets.perceptual_roughness));
   }
 
   // The BTDF times the cosine, for light from behind, before `color`.
@@ -64,11 +58,8 @@ struct TransmissionLobe {
     const T behind = -Dot(at.normal, light);
     const Vec3<T> mirrored = light + at.normal * (T(2.0f) * behind);
     const Incidence<T> from = IncidenceFrom(at, mirrored);
-    const T roughness = microfacets.perceptual_roughness;
-    const SpecularAlbedo<T> average = lighting.DfgAverage(roughness);
-    const T multiple = LostEnergy(lighting.Dfg(at.n_dot_v, roughness)) *
-                       LostEnergy(lighting.Dfg(from.n_dot_l, roughness)) * T(kInversePi) /
-                       Max(LostEnergy(average), T(1e-6f));
+    const T lost_for_light = LostEnergy(lighting.Dfg(from.n_dot_l, microfacets.perceptual_roughness));
+    const T multiple = lost_for_view * lost_for_light * T(kInversePi) / lost_average;
     return Select(behind > T(0.0f), (microfacets.Single(at, from) + multiple) * from.n_dot_l, T(0.0f));
   }
 

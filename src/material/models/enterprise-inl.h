@@ -33,11 +33,11 @@ struct EnterpriseScattering {
   Vec3<T> normal, view;
   T coverage{};
 
-  // `is_entered`: 1 where the medium begins behind the surface, else 0.
+  // `inputs`: of the same source, with the coat.
   template <class Source, class Lighting>
-  HWY_INLINE EnterpriseScattering(const Source& from, const Vec4<T>& base, const Vec3<T>& towards_eye,
-                                  const Lighting& lighting, T is_entered)
-      : in(WithThickness(ReadEnterpriseInputs<T>(from, base), is_entered)),
+  HWY_INLINE EnterpriseScattering(const Source& from, const MaterialInputs<T>& inputs, const Vec3<T>& towards_eye,
+                                  const Lighting& lighting)
+      : in(inputs),
         has_coat(from.Has(kClearcoat)),
         has_flakes(from.Has(kFlakes)),
         closure(WithoutCoat(in), towards_eye, lighting),
@@ -45,9 +45,9 @@ struct EnterpriseScattering {
         view(towards_eye),
         coverage(in.alpha_coverage) {
     const EnterpriseParameters& p = from.template Parameters<EnterpriseParameters>();
-    if (has_coat) coat = ClearcoatLobe<T>(in.clearcoat, view, lighting);
+    if (has_coat) coat = ClearcoatLobe<T>(in.clearcoat, in.footprint_alpha2, view, lighting);
     if (has_flakes) flakes = FlakeLayer<T>(ReadFlakes<T>(from, p, normal), closure.at);
-    if (closure.Has(kTransmission) && closure.Has(kAnisotropy)) SetMeanRoughnessOfTransmission();
+    if (closure.Has(kTransmission) && closure.Has(kAnisotropy)) SetMeanRoughnessOfTransmission(lighting);
     if (closure.Has(kTransmission) && closure.Has(kVolume) && p.subsurface_color != glm::vec3(0.0f)) {
       AddSubsurface(ToVec3<T>(p.subsurface_color));
     }
@@ -71,7 +71,8 @@ struct EnterpriseScattering {
     Vec3<T> radiance = EvaluateEnvironment(closure, in, lighting);
     if (has_flakes) radiance = radiance * (T(1.0f) - flakes.Share()) + flakes.Environment(closure.at, lighting);
     if (has_coat) {
-      radiance = radiance * coat.EnergyLeft() + coat.Environment(in.clearcoat.perceptual_roughness, lighting);
+      radiance = radiance * coat.EnergyLeft() +
+                 coat.Environment(in.clearcoat.perceptual_roughness, in.footprint_alpha2, lighting);
     }
     return radiance;
   }
@@ -113,22 +114,18 @@ struct EnterpriseScattering {
   HWY_INLINE bool TransmitsDiffusely() const { return closure.Has(kDiffuseTransmission); }
 
  private:
-  static HWY_INLINE MaterialInputs<T> WithThickness(MaterialInputs<T> in, T is_entered) {
-    in.transmission.thickness = in.transmission.thickness * is_entered;
-    return in;
-  }
   static HWY_INLINE MaterialInputs<T> WithoutCoat(MaterialInputs<T> in) {
     in.lobes = in.lobes & ~MaterialFeatures{kClearcoat};
     return in;
   }
 
   // The lobe of transmission is equally wide in all directions: its roughness is the mean of both, by the areas.
-  HWY_INLINE void SetMeanRoughnessOfTransmission() {
+  template <class Lighting>
+  HWY_INLINE void SetMeanRoughnessOfTransmission(const Lighting& lighting) {
+    const Vec3<T> color = closure.transmission.color;
     const T mean = Sqrt(Sqrt(closure.anisotropic.alpha_t * closure.anisotropic.alpha_b));
-    const bool has_volume = closure.Has(kVolume);
-    const TransmissionLobe<T> even(in.transmission, has_volume, in.base_color, in.metallic, mean);
-    closure.transmission.microfacets = even.microfacets;
-    closure.transmission.unclamped_alpha = even.unclamped_alpha;
+    closure.transmission = TransmissionLobe<T>(in.transmission, closure.at, in.base_color, in.metallic, mean, lighting);
+    closure.transmission.color = color;
   }
 
   // Light that the medium deflects, 1 - exp(-tau), comes back as diffuse light of the medium's colour. Of a thin medium
@@ -138,10 +135,12 @@ struct EnterpriseScattering {
     const T zero(0.0f), one(1.0f);
     const TransmissionInputs<T>& t = in.transmission;
     const T amount = Clamp(t.factor, zero, one) * (one - Clamp(in.metallic, zero, one));
-    const Vec3<T> passing = TransmissionLobe<T>::Passing(t.absorption, t.thickness);
-    const auto behind = [&](T absorption)
-                            HWY_ATTR { return one / (T(2.0f) + T(0.75f) * Min(absorption * t.thickness, T(1e6f))); };
-    const Vec3<T> through{behind(t.absorption.x), behind(t.absorption.y), behind(t.absorption.z)};
+    const Vec3<T> passing = in.volume.Passing();
+    const auto behind = [&](T absorption) HWY_ATTR {
+      return one / (T(2.0f) + T(0.75f) * Min(absorption * in.volume.thickness, T(1e6f)));
+    };
+    const Vec3<T> through{behind(in.volume.absorption.x), behind(in.volume.absorption.y),
+                          behind(in.volume.absorption.z)};
     const Vec3<T> all{one, one, one};
     const Vec3<T> scattered = color * in.base_color * (all - passing) * amount;
     closure.diffuse.color += scattered * (all - through);
@@ -155,17 +154,15 @@ struct Enterprise : OwnModel<Enterprise> {
   template <class T, class Source, class Lighting>
   static HWY_INLINE EnterpriseScattering<T> Make(const Source& from, const Vec4<T>& base, const Vec3<T>& view,
                                                  const Lighting& lighting) {
-    return EnterpriseScattering<T>(from, base, view, lighting, T(1.0f));
+    return EnterpriseScattering<T>(from, ReadEnterpriseInputs<T>(from, base), view, lighting);
   }
 
-  // For materials with transmission. `metres_per_unit`: 0 where no medium begins behind the surface; the plan has
-  // turned the thickness into metres.
+  // For materials with transmission.
   template <class T, class Material, class Lighting>
-  static HWY_INLINE ShadedThrough<T> Through(const Surface<T>& surface, T metres_per_unit, const Material& material,
+  static HWY_INLINE ShadedThrough<T> Through(const Surface<T>& surface, const Material& material,
                                              const Lighting& lighting) {
     return material.Read(surface, [&](const auto& source, const Vec4<T>& base) HWY_ATTR {
-      const T is_entered = Select(metres_per_unit > T(0.0f), T(1.0f), T(0.0f));
-      const EnterpriseScattering<T> s(source, base, surface.view, lighting, is_entered);
+      const EnterpriseScattering<T> s = Make<T>(source, base, surface.view, lighting);
       Vec3<T> radiance = s.Emission();
       if (lighting.HasEnvironment()) radiance += s.Environment(lighting);
       const int light_count = lighting.LightCount();

@@ -32,9 +32,9 @@ struct LitModel {
 
   // For materials with transmission.
   template <class T, class Material, class Lighting>
-  static HWY_INLINE ShadedThrough<T> Through(const Surface<T>& surface, T metres_per_unit, const Material& material,
+  static HWY_INLINE ShadedThrough<T> Through(const Surface<T>& surface, const Material& material,
                                              const Lighting& lighting) {
-    return ShadeThrough(material.template Inputs<kAllLobes>(surface), surface, metres_per_unit, lighting);
+    return ShadeThrough(material.template Inputs<kAllLobes>(surface), surface, lighting);
   }
 };
 

@@ -29,6 +29,9 @@ struct ModelInfo {
   const char* gltf_extension;      // the extension that selects it; null: core glTF
   MaterialFeatures reads;          // bits of glTF's texture slots and features that it reads
   bool reads_light;
+  // Of models with parameters of their own: a sentence, and where the formulas come from.
+  const char* summary = "";
+  const char* source = "";
 };
 
 inline constexpr MaterialFeatures kMetallicRoughnessOnly =
@@ -40,9 +43,15 @@ inline constexpr auto kModels = std::to_array<ModelInfo>({
     {ShadingModel::SpecularGlossiness, "specular-glossiness", "KHR_materials_pbrSpecularGlossiness",
      ~kMetallicRoughnessOnly, true},
     {ShadingModel::Unlit, "unlit", "KHR_materials_unlit", BitOf(Slot::BaseColor), false},
-    {ShadingModel::Lecture, "lecture", nullptr, 0, true},
-    {ShadingModel::Filament, "filament", nullptr, 0, true},
-    {ShadingModel::Enterprise, "enterprise", nullptr, 0, true},
+    {ShadingModel::Lecture, "lecture", nullptr, 0, true,
+     "The textbook's microfacet model, with each of its terms a choice.",
+     "Akenine-Moller et al., 2018, Real-Time Rendering, chapter 9; Karis, 2013, Real Shading in Unreal Engine 4"},
+    {ShadingModel::Filament, "filament", nullptr, 0, true,
+     "The material models of the engine Filament: lit, cloth, subsurface, specular-glossiness and unlit.",
+     "Guy and Agopian, 2018, Physically Based Rendering in Filament"},
+    {ShadingModel::Enterprise, "enterprise", nullptr, 0, true,
+     "Layers for products: a core of metal, plastic and glass under film, sheen, flakes and a clear coat.",
+     "facet is implementing DSPBR, the Dassault Systemes Enterprise PBR Shading Model (2025x)"},
 });
 
 #define FACET_MODEL_OF(Name) ShadingModel::Name,

@@ -18,6 +18,8 @@ struct RowOptions {
   const char* unit = "";                    // "": none
   std::span<const char* const> words = {};  // of an enumeration, in the order of its values
   bool is_data = false;                     // the texture of a colour is linear
+  // What charts of this parameter state besides, so that it shows: a JSON object, as in material files.
+  const char* chart = "{}";
   bool is_coverage = false;                 // a number that takes the place of the base colour's alpha
   Feature feature = Feature{};              // that disables the parameter: it has its default then
 };

@@ -25,10 +25,10 @@ struct ShadedThrough {
   T spread{};  // TransmissionLobe::Spread()
 };
 
-// Where and how sharply things are seen through the surface. `in`: of the closure, with the thickness in metres.
+// Where and how sharply things are seen through the surface. `in`: of the closure.
 template <class T>
 HWY_INLINE void SetPaths(const Closure<T>& closure, const MaterialInputs<T>& in, ShadedThrough<T>& out) {
-  const T thickness = in.transmission.thickness;
+  const T thickness = in.volume.thickness;
   const Vec3<T>& ior = in.transmission.ior;
   out.spread = closure.transmission.Spread(thickness, ior.y);
   if ((in.lobes & kVolume) == 0) return;
@@ -39,12 +39,9 @@ HWY_INLINE void SetPaths(const Closure<T>& closure, const MaterialInputs<T>& in,
   }
 }
 
-// `metres_per_unit`: of the mesh, in which thickness is stated; 0: no medium begins here.
 template <class T, class Lighting>
-HWY_INLINE ShadedThrough<T> ShadeThrough(MaterialInputs<T> in, const Surface<T>& surface, T metres_per_unit,
+HWY_INLINE ShadedThrough<T> ShadeThrough(const MaterialInputs<T>& in, const Surface<T>& surface,
                                          const Lighting& lighting) {
-  const bool has_volume = (in.lobes & kVolume) != 0;
-  if (has_volume) in.transmission.thickness = Min(in.transmission.thickness * metres_per_unit, T(1e30f));
   const Closure<T> closure(in, surface.view, lighting);
   ShadedThrough<T> out{};
   out.own = {ShadeClosure(closure, in, surface.position, lighting), in.alpha_coverage};

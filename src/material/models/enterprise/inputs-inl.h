@@ -77,18 +77,18 @@ template <class T, class Source>
 HWY_INLINE void ReadEnterprisePassing(const Source& from, const EnterpriseParameters& p, MaterialInputs<T>& in) {
   using P = EnterpriseParameters;
   const MaterialFactors& f = from.Factors();
-  const Vec3<T> absorption{T(f.absorption[0]), T(f.absorption[1]), T(f.absorption[2])};
+  if (from.Has(kVolume)) {
+    in.volume = {Min(T(f.thickness) * from.MetresPerUnit(), T(1e30f)),
+                 {T(f.absorption[0]), T(f.absorption[1]), T(f.absorption[2])}};
+  }
   if (from.Has(kTransmission)) {
     in.transmission = {ReadParameter<T>(from, p.transparency, SlotOf(&P::transparency)),
-                       {T(f.ior[0]), T(f.ior[1]), T(f.ior[2])},
-                       from.Has(kVolume) ? T(f.thickness) : T(0.0f),
-                       absorption};
+                       {T(f.ior[0]), T(f.ior[1]), T(f.ior[2])}};
   }
   if (from.Has(kDiffuseTransmission)) {
-    Vec3<T> color = p.profile == EnterpriseProfile::V2022x
-                        ? in.base_color
-                        : ReadParameter<T>(from, p.translucency_color, SlotOf(&P::translucency_color));
-    if (!p.thin_walled) color = color * TransmissionLobe<T>::Passing(absorption, T(f.thickness));
+    const Vec3<T> color = p.profile == EnterpriseProfile::V2022x
+                              ? in.base_color
+                              : ReadParameter<T>(from, p.translucency_color, SlotOf(&P::translucency_color));
     in.diffuse_transmission = {ReadParameter<T>(from, p.translucency, SlotOf(&P::translucency)), color};
   }
 }
@@ -105,6 +105,7 @@ HWY_INLINE MaterialInputs<T> ReadEnterpriseInputs(const Source& from, const Vec4
   in.perceptual_roughness = ReadParameter<T>(from, p.roughness, SlotOf(&P::roughness));
   in.normal = ReadParameter<T>(from, p.normal, SlotOf(&P::normal));
   in.occlusion = T(1.0f);
+  in.footprint_alpha2 = from.FootprintAlpha2();
   in.lobes = 0;
   for (const MaterialFeatures bit : {kDiffuseLobe, kClearcoat, kSheen, kSpecular, kIor, kTransmission, kVolume,
                                      kDispersion, kDiffuseTransmission, kIridescence, kAnisotropy}) {

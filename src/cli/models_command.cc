@@ -1,0 +1,115 @@
+#include "cli/models_command.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "base/number_text.h"
+#include "base/printable.h"
+#include "cli/console.h"
+#include "facet/catalog.h"
+#include "facet/error.h"
+
+namespace facet::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string Joined(const std::vector<std::string>& parts, const char* between) {
+  std::string text;
+  for (const std::string& part : parts) text += (text.empty() ? "" : between) + part;
+  return text;
+}
+
+std::string RangeOf(const ParameterDescription& p) {
+  if (p.type == "choice") return Joined(p.choices, " | ");
+  if (p.type == "true or false" || p.type == "direction") return "";
+  if (std::isinf(p.high)) return std::isinf(p.low) ? "" : ShortNumber(double{p.low}) + " or more";
+  return ShortNumber(double{p.low}) + " to " + ShortNumber(double{p.high});
+}
+
+std::string DefaultOf(const ParameterDescription& p) {
+  if (p.type == "choice") return p.choices.at(static_cast<std::size_t>(p.initial[0]));
+  if (p.type == "true or false") return p.initial[0] != 0.0f ? "true" : "false";
+  std::vector<std::string> numbers;
+  for (const float number : p.initial) numbers.push_back(ShortNumber(double{number}));
+  const bool all_same = std::ranges::all_of(numbers, [&](const std::string& n) { return n == numbers[0]; });
+  return all_same && p.type == "colour" ? numbers[0] : Joined(numbers, " ");
+}
+
+std::string TextOf(const ModelDescription& model) {
+  std::string text = model.name + ": " + model.summary + "\n" + model.source + ".\n\n";
+  for (const ParameterDescription& p : model.parameters) {
+    std::vector<std::string> facts = {p.type};
+    if (const std::string range = RangeOf(p); !range.empty()) facts.push_back(range);
+    if (!p.unit.empty()) facts.push_back(p.unit);
+    facts.push_back("default " + DefaultOf(p));
+    if (p.textured) facts.emplace_back("textured");
+    text += "  " + p.name + "\n      " + p.meaning + "\n      " + Joined(facts, "; ") + "\n";
+  }
+  return text;
+}
+
+Json JsonOf(const ModelDescription& model) {
+  Json parameters = Json::array();
+  for (const ParameterDescription& p : model.parameters) {
+    Json json = {{"name", p.name}, {"type", p.type}, {"meaning", p.meaning}, {"unit", p.unit}, {"textured", p.textured}};
+    if (p.type == "choice") json["choices"] = p.choices;
+    const auto number = [](float value) { return std::isfinite(value) ? Json(value) : Json(nullptr); };
+    json["low"] = number(p.low), json["high"] = number(p.high);
+    for (const float value : p.initial) json["default"].push_back(number(value));
+    parameters.push_back(std::move(json));
+  }
+  return {{"name", model.name}, {"summary", model.summary}, {"source", model.source}, {"parameters", parameters}};
+}
+
+std::string TableOf(const ModelComparison& comparison) {
+  std::string text = "Mean FLIP against " + comparison.models[0] + ":\n\n";
+  const auto padded = [](std::string cell, std::size_t width) { return cell.append(width - std::min(width, cell.size()), ' '); };
+  text += padded("", 30);
+  for (std::size_t c = 1; c < comparison.models.size(); ++c) text += padded(comparison.models[c], 12);
+  for (std::size_t r = 0; r < comparison.materials.size(); ++r) {
+    text += "\n" + padded(comparison.materials[r], 30);
+    for (std::size_t c = 1; c < comparison.models.size(); ++c) text += padded(ShortNumber(comparison.flip[r][c], 3), 12);
+  }
+  return text + "\n";
+}
+
+}  // namespace
+
+void RunModels(const ModelsOptions& options) {
+  if (options.schema) return PrintOutput(MaterialFileSchema());
+  const std::vector<ModelDescription> models = DescribeModels();
+  std::vector<ModelDescription> chosen;
+  std::vector<std::string> names;
+  for (const ModelDescription& model : models) {
+    names.push_back(model.name);
+    if (options.name.empty() || options.name == model.name) chosen.push_back(model);
+  }
+  if (chosen.empty()) {
+    throw Error(ErrorCode::InvalidUsage, "there is no model " + Quoted(options.name), {}, "use one of " + Joined(names, ", "));
+  }
+  if (options.chart) {
+    if (options.name.empty()) throw Error(ErrorCode::InvalidUsage, "a chart is of one model", "--chart", "name it: facet models filament --chart OUT.png");
+    WriteImage(*options.chart, ChartModel(chosen[0].model));
+  } else if (options.compare) {
+    const ModelComparison comparison = CompareModels();
+    WriteImage(*options.compare, comparison.picture);
+    PrintOutput(TableOf(comparison));
+  } else if (options.json) {
+    Json json = Json::array();
+    for (const ModelDescription& model : chosen) json.push_back(JsonOf(model));
+    PrintOutput(json.dump(2) + "\n");
+  } else if (!options.name.empty()) {
+    PrintOutput(TextOf(chosen[0]));
+  } else {
+    std::string text;
+    for (const ModelDescription& model : models) {
+      text += model.name + "  (" + std::to_string(model.parameters.size()) + " parameters)\n  " + model.summary + "\n  " +
+              model.source + ".\n";
+    }
+    PrintOutput(text);
+  }
+}
+
+}  // namespace facet::cli
