@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "facet/catalog.h"
+#include "facet/models.h"
 
 namespace facet {
 namespace {
@@ -72,6 +73,7 @@ Json EntryOf(const ModelDescription& model) {
                          {"alphaMode", {{"enum", {"OPAQUE", "MASK", "BLEND"}}}},
                          {"alphaCutoff", {{"type", "number"}, {"minimum", 0}}},
                          {"doubleSided", {{"type", "boolean"}}}});
+  if (model.model == ShadingModel::Enterprise) entry["properties"]["preset"] = {{"enum", kEnterprisePresets}};
   entry["required"] = {"match", "model"};
   return entry;
 }

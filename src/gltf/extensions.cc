@@ -4,6 +4,7 @@
 #include <map>
 #include <string_view>
 
+#include "gltf/enterprise.h"
 #include "material/models/models.h"
 #include "material/parameters.h"
 
@@ -26,7 +27,8 @@ void CollectUnlisted(const Context& context, const Json& value, const Place& pla
     CollectUnlisted(context, item.value(), item_place, out);
     if (item.key() != "extensions" || !item.value().is_object()) continue;
     for (const auto& extension : item.value().items()) {
-      if (context.IsUsed(extension.key())) continue;
+      // A material's extras may have become these.
+      if (context.IsUsed(extension.key()) || IsEnterpriseExtension(extension.key())) continue;
       const auto [uses, is_new] = out.try_emplace(extension.key());
       if (is_new) {
         uses->second.place = Place(item_place, extension.key()).Path();
@@ -65,7 +67,7 @@ bool IsSupported(const std::string& extension) {
   };
   for (const ModelInfo& model : kModels) compare(model.gltf_extension);
   ForEachParameter([&](const auto& parameter) { compare(parameter.gltf_group); });
-  return supported;
+  return supported || IsEnterpriseExtension(extension);
 }
 
 void ReadExtensions(Context& context) {

@@ -9,6 +9,7 @@
 
 #include "base/json_bounds.h"
 #include "base/memory_budget.h"
+#include "gltf/enterprise.h"
 #include "gltf/extensions.h"
 
 namespace facet::gltf {
@@ -124,10 +125,26 @@ std::string WithFiniteNumbers(std::string_view text) {
   return finite;
 }
 
+// Removes "extras". Those that state a material's parameters in the form of extensions become its extensions.
+void RemoveExtras(Json& object) {
+  const auto extras = object.find("extras");
+  if (extras == object.end()) return;
+  Json kept = Json::object();
+  if (extras->is_object()) {
+    for (auto& [name, value] : extras->get_ref<Json::object_t&>()) {
+      if (IsEnterpriseExtension(name)) kept[name] = std::move(value);
+    }
+  }
+  object.erase(extras);
+  if (kept.empty()) return;
+  Json& extensions = object.emplace("extensions", Json::object()).first.value();
+  if (extensions.is_object()) extensions.insert(kept.begin(), kept.end());  // those that it has already stay
+}
+
 void Normalise(Json& value, const Place& place, bool are_extensions = false) {
   constexpr double kMaxInteger = 9007199254740992.0;  // 2^53: what JSON's numbers can say exactly
   if (value.is_object()) {
-    value.erase("extras");
+    RemoveExtras(value);
     auto& members = value.get_ref<Json::object_t&>();
     for (auto member = members.begin(); member != members.end();) {
       const Place member_place(place, member->first);

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "base/number_text.h"
+#include "gltf/enterprise.h"
 #include "material/models/models.h"
 #include "material/parameters.h"
 #include "math/round_to_float.h"
@@ -52,6 +53,10 @@ class MaterialReader {
       if (const Json* group = Group(name)) ReadValue(*group, PlaceOf(name), parameter, value);
     });
     WarnOfUnknownProperties();
+    if (IsEnterprise(object_, place_)) {
+      const auto read_texture = [this](const Json& info, const Place& where) { return ReadRef(info, where); };
+      ReadEnterprise(object_, place_, read_texture, out);
+    }
     return out;
   }
 

@@ -29,6 +29,7 @@ enum MaterialFeature : std::uint64_t {
   kIridescence = kFirstFeature << 14,
   kAnisotropy = kFirstFeature << 15,
   kTangents = kFirstFeature << 16,  // a model that is not glTF's needs tangents without a texture
+  kFlakes = kFirstFeature << 17,    // of the model "enterprise": they lie where TEXCOORD_0 says
 };
 using MaterialFeatures = std::uint64_t;
 

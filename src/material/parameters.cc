@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "material/enterprise_factors.h"
 #include "material/model_parameters.h"
 #include "math/elementary.h"
 #include "math/round_to_float.h"
@@ -36,6 +37,9 @@ MaterialFactors FactorsOf(const Material& m) {
   if (m.parameters != nullptr) {
     Copy(BaseColorOf(*m.parameters), f.base_color);
     f.alpha_cutoff = m.alpha_cutoff;
+    if (const auto* enterprise = std::get_if<EnterpriseParameters>(m.parameters.get())) {
+      SetEnterpriseFactors(*enterprise, f);
+    }
     return f;
   }
   Copy(m.base_color_factor, f.base_color);

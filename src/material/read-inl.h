@@ -7,8 +7,9 @@
 //   Vec3<T> Normal() const;                              // of the surface, unit
 //   Vec3<T> InterpolatedNormal() const;                  // not normalised
 //   Vec4<T> Tangent() const;                             // not normalised; w is the handedness
-//   T FootprintAlpha2() const;                           // Surface::footprint_alpha2; may be left out where it is 0
+//   UvFootprint<T> FirstUv() const;                      // TEXCOORD_0, of materials with kFlakes
 //   T MetresPerUnit() const;                             // Surface::metres_per_unit, if Has(kVolume)
+//   T FootprintAlpha2() const;                           // Surface::footprint_alpha2; may be left out where it is 0
 
 #if defined(FACET_MATERIAL_READ_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef FACET_MATERIAL_READ_INL_H_
@@ -23,6 +24,12 @@
 HWY_BEFORE_NAMESPACE();
 namespace facet {
 namespace HWY_NAMESPACE {
+
+// Texture coordinates and their derivatives over one pixel to the right and down; zero for a point of the reference.
+template <class T>
+struct UvFootprint {
+  Vec2<T> uv, dx, dy;
+};
 
 // The surface's normal, perturbed by a texture in tangent space. As MikkTSpace demands, the bitangent is computed per
 // fragment from the interpolated vectors, without normalising them.
@@ -88,7 +95,21 @@ HWY_INLINE FilmInputs<T> ReadFilm(const Source& from) {
   return {ReadFactor<kR, T>(from, f.iridescence, Slot::Iridescence), T(f.iridescence_ior), thickness};
 }
 
-// `normal`: the shading normal, unit. Where the surface has no tangent, any direction takes its place.
+// The direction (x, y) of tangent space, perpendicular to the shading normal: unit. Where the surface has no tangent,
+// any direction takes its place.
+template <class T, class Source>
+HWY_INLINE Vec3<T> TurnedTangent(const Source& from, const Vec3<T>& normal, T x, T y) {
+  const Vec3<T> along = Xyz(from.Tangent());
+  const Vec3<T> across = Cross(from.InterpolatedNormal(), along) * from.Tangent().w;
+  const Vec3<T> direction = along * x + across * y;
+  const T zero(0.0f), one(1.0f);
+  const auto is_steep = Abs(normal.y) < T(0.9f);
+  const Vec3<T> other = NormalizeOr(
+      Cross(Select<T>(is_steep, Vec3<T>{zero, one, zero}, Vec3<T>{one, zero, zero}), normal), Vec3<T>{one, zero, zero});
+  return NormalizeOr(direction - normal * Dot(normal, direction), other);
+}
+
+// `normal`: the shading normal, unit.
 template <class T, class Source>
 HWY_INLINE AnisotropyInputs<T> ReadAnisotropy(const Source& from, const Vec3<T>& normal) {
   const MaterialFactors& f = from.Factors();
@@ -100,14 +121,8 @@ HWY_INLINE AnisotropyInputs<T> ReadAnisotropy(const Source& from, const Vec3<T>&
     y = sine * u + cosine * v;
     strength = strength * texel.z;
   }
-  const Vec3<T> along = Xyz(from.Tangent());
-  const Vec3<T> across = Cross(from.InterpolatedNormal(), along) * from.Tangent().w;
-  const Vec3<T> direction = along * x + across * y;
   const T zero(0.0f), one(1.0f);
-  const auto is_steep = Abs(normal.y) < T(0.9f);
-  const Vec3<T> other = NormalizeOr(
-      Cross(Select<T>(is_steep, Vec3<T>{zero, one, zero}, Vec3<T>{one, zero, zero}), normal), Vec3<T>{one, zero, zero});
-  const Vec3<T> tangent = NormalizeOr(direction - normal * Dot(normal, direction), other);
+  const Vec3<T> tangent = TurnedTangent<T>(from, normal, x, y);
   return {tangent, Cross(normal, tangent), Clamp(strength, zero, one)};
 }
 

@@ -129,16 +129,18 @@ class MaterialFile {
  private:
   void ReadEntry(const JsonValue& entry) {
     entry.ExpectObject(
-        std::array{"match", "model", "parameters", "textures", "alphaMode", "alphaCutoff", "doubleSided"});
+        std::array{"match", "model", "preset", "parameters", "textures", "alphaMode", "alphaCutoff", "doubleSided"});
     for (const char* key : {"match", "model"}) {
       if (!entry.Has(key)) entry.Fail(std::string("has no \"") + key + "\"");
     }
     Material changes;
     changes.model = ReadModel(entry["model"]);
     auto parameters = DefaultsOf(changes.model);
+    if (entry.Has("preset")) parameters = ReadPreset(entry["preset"], changes.model);
     std::visit([&](auto& block) { ReadBlock(entry, block, changes); }, parameters);
     changes.parameters = std::make_shared<const ModelParameters>(std::move(parameters));
     ReadCommon(entry, changes);
+    WarnOfIgnored(*changes.parameters, entry);
     for (const std::size_t index : Matching(entry["match"])) {
       Material& material = scene_.materials[index];
       Material changed = changes;
@@ -158,6 +160,16 @@ class MaterialFile {
       words.emplace_back(model.word);
     }
     value.Fail("there is no model " + Quoted(value.Text()), "use one of " + Listed(words));
+  }
+
+  static ModelParameters ReadPreset(const JsonValue& value, ShadingModel model) {
+    std::vector<std::string> words;
+    if (model != ShadingModel::Enterprise) value.Fail("the model has no presets");
+    for (const std::string_view preset : kEnterprisePresets) {
+      if (value.Text() == preset) return EnterprisePreset(preset);
+      words.emplace_back(preset);
+    }
+    value.Fail("there is no preset " + Quoted(value.Text()), "use one of " + Listed(words));
   }
 
   // The materials of the scene that the pattern stands for, or each of a list of patterns.
@@ -241,6 +253,12 @@ class MaterialFile {
         states_alpha_mode_ = true;
       }
     }
+  }
+
+  void WarnOfIgnored(const ModelParameters& parameters, const JsonValue& entry) {
+    const auto* const enterprise = std::get_if<EnterpriseParameters>(&parameters);
+    if (enterprise == nullptr || enterprise->displacement == glm::vec3(0.0f)) return;
+    report_.warnings.push_back(entry.Place() + ": displacement is not drawn");
   }
 
   void ReadCommon(const JsonValue& entry, Material& changes) {

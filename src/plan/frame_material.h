@@ -29,6 +29,7 @@ struct FrameMaterial {
   // Where its coverage is read.
   Slot coverage_slot = Slot::BaseColor;
   int coverage_channel = 3;
+  int first_uv_slot = 0;          // of TEXCOORD_0, with kFlakes
   int uv_slots = 0;               // number of UV sets that it reads
   int uv_sets[kMaxUvSlots] = {};  // TEXCOORD_n of each
   BoundTexture textures[kMaxSlots];

@@ -7,6 +7,7 @@
 
 #include "facet/shader.h"
 #include "material/model_parameters.h"
+#include "plan/enterprise_measures.h"
 #include "plan/unused_features.h"
 #include "scene/topology.h"
 
@@ -28,9 +29,10 @@ class Planner {
     const bool is_thin = ClassOf(geometry.topology) != PrimitiveClass::Triangles;
     const bool on_surface = !is_thin || !geometry.normals.empty(), flat = is_thin && geometry.tangents.empty();
     const bool colors = !geometry.colors.empty();
-    const auto [known, is_new] =
-        materials_.try_emplace({drawable.material, on_surface, colors, flat}, static_cast<int>(plan.materials.size()));
-    if (is_new) plan.materials.push_back(Plan(material, drawable.material, on_surface, colors, flat));
+    const EnterpriseMeasures measures = Measures(material, drawable);
+    const auto [known, is_new] = materials_.try_emplace({drawable.material, on_surface, colors, flat, measures},
+                                                        static_cast<int>(plan.materials.size()));
+    if (is_new) plan.materials.push_back(Plan(material, drawable.material, on_surface, colors, flat, measures));
     return known->second;
   }
 
@@ -39,9 +41,18 @@ class Planner {
   FeatureSet stated_by_lit;  // those that lit ones do
 
  private:
-  PlannedMaterial Plan(Material material, int index, bool on_surface, bool colors, bool flat) {
+  static EnterpriseMeasures Measures(const Material& material, const Drawable& drawable) {
+    const auto* enterprise = std::get_if<EnterpriseParameters>(material.parameters.get());
+    return enterprise != nullptr ? MeasuresFor(*enterprise, drawable) : EnterpriseMeasures{};
+  }
+
+  PlannedMaterial Plan(Material material, int index, bool on_surface, bool colors, bool flat,
+                       const EnterpriseMeasures& measures) {
     if (flat) RemoveTangentSpace(material);
     Disable(material, colors);
+    if (const auto* enterprise = std::get_if<EnterpriseParameters>(material.parameters.get())) {
+      material.parameters = std::make_shared<const ModelParameters>(WithMeasures(*enterprise, measures));
+    }
     PlannedMaterial planned;
     planned.material = index;
     planned.vertex_colors = colors;
@@ -72,6 +83,7 @@ class Planner {
         if (f.parameters == nullptr) f.features &= ~BitOf(Slot::Thickness);
       }
     }
+    if (f.Has(kFlakes)) f.first_uv_slot = UvSlotFor(f, 0);
     ForEachSlotOf(f.model, f.features, [&](const SlotInfo& slot) { BindTexture(material, slot, planned); });
     return planned;
   }
@@ -168,7 +180,8 @@ class Planner {
 
   const Scene& scene_;
   const RenderSettings& settings_;
-  std::map<std::tuple<int, bool, bool, bool>, int> materials_;  // material, surface, vertex colours, no tangents
+  // By material, surface, vertex colours, no tangents, and what a model measured on the mesh.
+  std::map<std::tuple<int, bool, bool, bool, EnterpriseMeasures>, int> materials_;
   std::map<std::pair<int, TextureRole>, int> textures_;
 };
 

@@ -33,7 +33,12 @@ struct ExactSource {
   lanes::Vec3<double> Normal() const { return ToLanes(point.normal); }
   lanes::Vec3<double> InterpolatedNormal() const { return ToLanes(point.interpolated_normal); }
   lanes::Vec4<double> Tangent() const { return ToLanes(point.tangent); }
+  lanes::UvFootprint<double> FirstUv() const {
+    const glm::dvec2 uv = point.Uv(0);
+    return {{uv.x, uv.y}, {}, {}};
+  }
   double MetresPerUnit() const { return point.metres_per_unit; }
+  double FootprintAlpha2() const { return 0.0; }
 };
 
 }  // namespace facet

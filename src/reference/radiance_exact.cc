@@ -48,11 +48,22 @@ struct Techniques {
 
 // The same for the models that are not glTF's.
 struct TechniquesOfShapes {
+  // Of lobes that are equally wide in all directions, or not.
+  struct Add {
+    std::vector<VisibleNormals>& to;
+    glm::dvec3 view;
+    void operator()(const lanes::Vec3<double>& normal, double alpha) const {
+      to.emplace_back(Frame(FromLanes(normal)), view, alpha, alpha);
+    }
+    void operator()(const lanes::Vec3<double>& tangent, const lanes::Vec3<double>& bitangent,
+                    const lanes::Vec3<double>& normal, double alpha_t, double alpha_b) const {
+      to.emplace_back(Frame(FromLanes(tangent), FromLanes(bitangent), FromLanes(normal)), view, alpha_t, alpha_b);
+    }
+  };
+
   template <class Scattering>
   explicit TechniquesOfShapes(const Scattering& s) : diffuse(FromLanes(s.normal)) {
-    s.ForEachShape([&](const lanes::Vec3<double>& normal, double alpha) {
-      specular.emplace_back(Frame(FromLanes(normal)), FromLanes(s.view), alpha, alpha);
-    });
+    s.ForEachShape(Add{specular, FromLanes(s.view)});
     if (s.TransmitsDiffusely()) behind.emplace(-FromLanes(s.normal));
   }
 

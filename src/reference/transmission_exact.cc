@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "light/lighting-inl.h"
+#include "material/models/enterprise-inl.h"
 #include "math/elementary.h"
 #include "reference/exact_source-inl.h"
 #include "reference/filament_exact.h"
@@ -16,11 +17,46 @@ namespace {
 
 double Bounded(double share) { return std::clamp(share, 0.0, 1.0); }
 
-ExactInterface InterfaceAt(const ExactSource& source, const SurfacePoint& point, double perceptual_roughness) {
+ExactInterface InterfaceAt(const ExactSource& source, const SurfacePoint& point, double perceptual_roughness,
+                           const lanes::Vec3<double>& normal) {
   const float* const ior = source.Factors().ior;
   const double roughness = Bounded(perceptual_roughness);
-  return {point.view, FromLanes(lanes::MappedNormal<double>(source, Slot::Normal, source.Factors().normal_scale)),
-          point.flat_normal, roughness * roughness, glm::dvec3(ior[0], ior[1], ior[2])};
+  return {point.view, FromLanes(normal), point.flat_normal, roughness * roughness, glm::dvec3(ior[0], ior[1], ior[2])};
+}
+ExactInterface InterfaceAt(const ExactSource& source, const SurfacePoint& point, double perceptual_roughness) {
+  return InterfaceAt(source, point, perceptual_roughness,
+                     lanes::MappedNormal<double>(source, Slot::Normal, source.Factors().normal_scale));
+}
+
+bool IsEnterprise(const ExactMaterial& material) { return material.Frame().model == ShadingModel::Enterprise; }
+
+ExactEntry EntryOfEnterprise(const ExactSource& source, const glm::dvec3& base_color, const SurfacePoint& point,
+                             const ExactLight& light) {
+  const ExactLighting lighting(light.albedos);
+  auto in = lanes::ReadEnterpriseInputs<double>(source, ToLanes(glm::dvec4(base_color, 1.0)));
+  const auto volume = in.volume;
+  in.volume.thickness = 0.0;  // so that the colour is that of the surface alone
+  const lanes::EnterpriseScattering<double> surface(source, in, ToLanes(point.view), lighting);
+
+  ExactEntry entry;
+  // Microfacets of the same area; the rays' facets are equally wide in all directions.
+  const double alpha = surface.closure.Has(kAnisotropy)
+                           ? std::sqrt(surface.closure.anisotropic.alpha_t * surface.closure.anisotropic.alpha_b)
+                           : Bounded(in.perceptual_roughness) * Bounded(in.perceptual_roughness);
+  entry.at = InterfaceAt(source, point, std::sqrt(alpha), surface.normal);
+  entry.thin_wall_alpha = surface.closure.transmission.unclamped_alpha;
+  entry.tint = FromLanes(surface.Tint());
+  glm::dvec3 passing(1.0);
+  if (source.Has(kVolume)) {
+    entry.absorption = FromLanes(volume.absorption);
+    entry.thickness = volume.thickness;
+    passing = FromLanes(volume.Passing());
+  }
+  for (const PunctualLight& punctual : light.punctual) {
+    const auto sample = lanes::SamplePunctual(punctual, ToLanes(point.position));
+    entry.punctual += passing * FromLanes(surface.Transmitted(sample.direction, lighting) * sample.irradiance);
+  }
+  return entry;
 }
 
 }  // namespace
@@ -28,6 +64,10 @@ ExactInterface InterfaceAt(const ExactSource& source, const SurfacePoint& point,
 ExactInterface ExitAt(const ExactMaterial& material, const SurfacePoint& point) {
   if (material.Frame().model == ShadingModel::Filament) return FilamentExitAt(material, point);
   const ExactSource source{material, point};
+  if (IsEnterprise(material)) {
+    const auto in = lanes::ReadEnterpriseInputs<double>(source, lanes::Vec4<double>{1.0, 1.0, 1.0, 1.0});
+    return InterfaceAt(source, point, in.perceptual_roughness, in.normal);
+  }
   const MaterialFactors& factors = source.Factors();
   const double roughness =
       material.Frame().model == ShadingModel::SpecularGlossiness
@@ -42,6 +82,7 @@ ExactEntry EntryAt(const ExactMaterial& material, const glm::dvec3& base_color, 
     return FilamentEntryAt(material, glm::dvec4(base_color, 1.0), point, light);
   }
   const ExactSource source{material, point};
+  if (IsEnterprise(material)) return EntryOfEnterprise(source, base_color, point, light);
   auto in = lanes::ReadInputs<double>(source, ToLanes(glm::dvec4(base_color, 1.0)), material.Frame().features);
   if (material.Frame().model == ShadingModel::SpecularGlossiness) lanes::SetSpecularGlossiness(source, in);
   const auto volume = in.volume;

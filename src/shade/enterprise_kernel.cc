@@ -19,6 +19,11 @@ void EnterpriseKernel(const ShadeTask& task) {
   ShadePackets(task, Enterprise(), surfaces);
 }
 
+void SeenThroughEnterpriseKernel(const ShadeTask& task) {
+  Surface<Float> surfaces[2];
+  ShadePackets(task, ModelSeenThrough<Enterprise>{task}, surfaces);
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace facet
 HWY_AFTER_NAMESPACE();
@@ -27,7 +32,12 @@ HWY_AFTER_NAMESPACE();
 namespace facet {
 
 FACET_EXPORT(EnterpriseKernel);
-void ShadeEnterprise(const ShadeTask& task) { FACET_DISPATCH(EnterpriseKernel)(task); }
+FACET_EXPORT(SeenThroughEnterpriseKernel);
+
+void ShadeEnterprise(const ShadeTask& task) {
+  if (task.seen_through != nullptr) return FACET_DISPATCH(SeenThroughEnterpriseKernel)(task);
+  FACET_DISPATCH(EnterpriseKernel)(task);
+}
 
 }  // namespace facet
 #endif

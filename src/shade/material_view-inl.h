@@ -194,8 +194,11 @@ class MaterialView {
     HWY_INLINE const Vec3<T>& Normal() const { return s.normal; }
     HWY_INLINE const Vec3<T>& InterpolatedNormal() const { return s.interpolated_normal; }
     HWY_INLINE const Vec4<T>& Tangent() const { return s.tangent; }
-    HWY_INLINE T FootprintAlpha2() const { return s.footprint_alpha2; }
+    HWY_INLINE UvFootprint<T> FirstUv() const {
+      return {s.uv[m.first_uv_slot], s.duv_dx[m.first_uv_slot], s.duv_dy[m.first_uv_slot]};
+    }
     HWY_INLINE T MetresPerUnit() const { return s.metres_per_unit; }
+    HWY_INLINE T FootprintAlpha2() const { return s.footprint_alpha2; }
   };
 
   HWY_INLINE TextureReader<T>& ReaderOf(const Surface<T>& s, TextureReader<T>& own) const {

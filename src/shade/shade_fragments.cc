@@ -16,6 +16,7 @@ namespace facet {
 namespace HWY_NAMESPACE {
 
 // Materials without layers have a kernel of their own, which has neither the branches nor the registers of the others.
+// With layers, specular-glossiness materials share metallic-roughness' kernels: only what they read differs.
 #define FACET_MODEL_KERNEL(Name)                                  \
   void Name##Kernel(const ShadeTask& task) {                      \
     Surface<Float> surfaces[2];                                   \
@@ -24,17 +25,14 @@ namespace HWY_NAMESPACE {
 FACET_GLTF_MODELS(FACET_MODEL_KERNEL)
 #undef FACET_MODEL_KERNEL
 
-#define FACET_MODEL_KERNEL(Name)                                \
-  void Layered##Name##Kernel(const ShadeTask& task) {           \
-    Surface<Float> surfaces[2];                                 \
-    ShadePackets(task, Name(), surfaces);                       \
-  }                                                             \
-  void SeenThrough##Name##Kernel(const ShadeTask& task) {       \
-    Surface<Float> surfaces[2];                                 \
-    ShadePackets(task, ModelSeenThrough<Name>{task}, surfaces); \
-  }
-FACET_LAYERED_MODELS(FACET_MODEL_KERNEL)
-#undef FACET_MODEL_KERNEL
+void LayeredKernel(const ShadeTask& task) {
+  Surface<Float> surfaces[2];
+  ShadePackets(task, MetallicRoughness(), surfaces);
+}
+void SeenThroughKernel(const ShadeTask& task) {
+  Surface<Float> surfaces[2];
+  ShadePackets(task, ModelSeenThrough<MetallicRoughness>{task}, surfaces);
+}
 
 void AlphaKernel(const ShadeTask& task) {
   const MaterialView<Float> material(*task.material);
@@ -107,38 +105,23 @@ namespace facet {
 #define FACET_MODEL_EXPORT(Name) FACET_EXPORT(Name##Kernel);
 FACET_GLTF_MODELS(FACET_MODEL_EXPORT)
 #undef FACET_MODEL_EXPORT
-#define FACET_MODEL_EXPORT(Name)       \
-  FACET_EXPORT(Layered##Name##Kernel); \
-  FACET_EXPORT(SeenThrough##Name##Kernel);
-FACET_LAYERED_MODELS(FACET_MODEL_EXPORT)
-#undef FACET_MODEL_EXPORT
+FACET_EXPORT(LayeredKernel);
+FACET_EXPORT(SeenThroughKernel);
 FACET_EXPORT(AlphaKernel);
 FACET_EXPORT(EnvironmentAtKernel);
 FACET_EXPORT(BackgroundKernel);
 
 namespace {
 
-void ShadeLayered(const ShadeTask& task) {
-  switch (task.material->model) {
-#define FACET_MODEL_CASE(Name)                                                            \
-  case ShadingModel::Name:                                                                \
-    return task.seen_through != nullptr ? FACET_DISPATCH(SeenThrough##Name##Kernel)(task) \
-                                        : FACET_DISPATCH(Layered##Name##Kernel)(task);
-    FACET_LAYERED_MODELS(FACET_MODEL_CASE)
-#undef FACET_MODEL_CASE
-    default: break;
-  }
-}
-
-// Whether the material needs the kernel with layers. Models that are not glTF's choose their own.
-bool IsLayered(const FrameMaterial& material) {
-  return material.Has(kLayerFeatures) && material.parameters == nullptr;
-}
+// Whether the material needs the kernel with layers. Models that are not glTF's choose by themselves.
+bool IsLayered(const FrameMaterial& material) { return material.Has(kLayerFeatures) && material.parameters == nullptr; }
 
 }  // namespace
 
 void ShadeFragments(const ShadeTask& task) {
-  if (IsLayered(*task.material)) return ShadeLayered(task);
+  if (IsLayered(*task.material)) {
+    return task.seen_through != nullptr ? FACET_DISPATCH(SeenThroughKernel)(task) : FACET_DISPATCH(LayeredKernel)(task);
+  }
   switch (task.material->model) {
 #define FACET_MODEL_CASE(Name) \
   case ShadingModel::Name: return FACET_DISPATCH(Name##Kernel)(task);

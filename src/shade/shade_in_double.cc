@@ -33,6 +33,7 @@ lanes::Shaded<double> ShadeSeenThrough(const ShadeTask& task, const lanes::Surfa
   case ShadingModel::Name: return shade(lanes::Name());
     FACET_MODELS_SEEN_THROUGH(FACET_MODEL_CASE)
 #undef FACET_MODEL_CASE
+    case ShadingModel::SpecularGlossiness: return shade(lanes::MetallicRoughness());
     default: break;
   }
   return {};

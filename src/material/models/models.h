@@ -16,10 +16,8 @@
 // Those that have parameters of their own.
 #define FACET_OWN_MODELS(X) X(Lecture) X(Filament) X(Enterprise)
 
-// Those of glTF's that have layers.
-#define FACET_LAYERED_MODELS(X) X(MetallicRoughness) X(SpecularGlossiness)
-// Those that light can pass through. Models that are not glTF's choose so in their own kernel.
-#define FACET_MODELS_SEEN_THROUGH(X) FACET_LAYERED_MODELS(X) X(Filament)
+// Those that light can pass through. (Specular-glossiness materials have metallic-roughness' closure, and its kernels.)
+#define FACET_MODELS_SEEN_THROUGH(X) X(MetallicRoughness) X(Filament) X(Enterprise)
 
 namespace facet {
 

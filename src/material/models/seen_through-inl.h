@@ -25,6 +25,20 @@ struct ShadedThrough {
   T spread{};  // TransmissionLobe::Spread()
 };
 
+// Where and how sharply things are seen through the surface. `in`: of the closure.
+template <class T>
+HWY_INLINE void SetPaths(const Closure<T>& closure, const MaterialInputs<T>& in, ShadedThrough<T>& out) {
+  const T thickness = in.volume.thickness;
+  const Vec3<T>& ior = in.transmission.ior;
+  out.spread = closure.transmission.Spread(thickness, ior.y);
+  if ((in.lobes & kVolume) == 0) return;
+  out.path[0] = RefractedPath(closure.at, ior.x, thickness);
+  if ((in.lobes & kDispersion) != 0) {
+    out.path[1] = RefractedPath(closure.at, ior.y, thickness);
+    out.path[2] = RefractedPath(closure.at, ior.z, thickness);
+  }
+}
+
 template <class T, class Lighting>
 HWY_INLINE ShadedThrough<T> ShadeThrough(const MaterialInputs<T>& in, const Surface<T>& surface,
                                          const Lighting& lighting) {
@@ -32,15 +46,7 @@ HWY_INLINE ShadedThrough<T> ShadeThrough(const MaterialInputs<T>& in, const Surf
   ShadedThrough<T> out{};
   out.own = {ShadeClosure(closure, in, surface.position, lighting), in.alpha_coverage};
   out.tint = closure.transmission.color;
-  const T thickness = in.volume.thickness;
-  out.spread = closure.transmission.Spread(thickness, in.transmission.ior.y);
-  if ((in.lobes & kVolume) == 0) return out;
-  const Vec3<T>& ior = in.transmission.ior;
-  out.path[0] = RefractedPath(closure.at, ior.x, thickness);
-  if ((in.lobes & kDispersion) != 0) {
-    out.path[1] = RefractedPath(closure.at, ior.y, thickness);
-    out.path[2] = RefractedPath(closure.at, ior.z, thickness);
-  }
+  SetPaths(closure, in, out);
   return out;
 }
 

@@ -1,0 +1,180 @@
+#include "gltf/enterprise.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+
+#include "base/number_text.h"
+#include "facet/models.h"
+#include "material/model_parameters.h"
+#include "math/round_to_float.h"
+
+namespace facet::gltf {
+namespace {
+
+constexpr float kPi = 3.14159265358979324f;
+
+// The nearest number of the range, with a warning if it is another one.
+float Within(double value, ParameterRange range, const Place& where) {
+  const double within = std::min(std::max(value, double{range.low}), double{range.high});
+  if (within != value) where.Warn(ShortNumber(value) + " is out of range; " + ShortNumber(within) + " is used");
+  return RoundToFiniteFloat(within);
+}
+
+// --- Members by the names of the table -------------------------------------------------------------------------------
+
+void ReadNamed(const Json& group, const Place& place, const RowOptions& row, const char* name, float& out) {
+  if (const auto value = LenientNumber(group, name, place)) out = Within(*value, row.range, Place(place, name));
+}
+void ReadNamed(const Json& group, const Place& place, const RowOptions& row, const char* name, glm::vec3& out) {
+  const auto values = LenientNumbers(group, name, 3, place);
+  const Place where(place, name);
+  for (std::size_t c = 0; c < values.size(); ++c) out[static_cast<int>(c)] = Within(values[c], row.range, where);
+}
+void ReadNamed(const Json& group, const Place& place, const RowOptions&, const char* name, bool& out) {
+  out = LenientBool(group, name, place).value_or(out);
+}
+template <class Value>
+requires std::is_enum_v<Value>
+void ReadNamed(const Json& group, const Place& place, const RowOptions& row, const char* name, Value& out) {
+  const auto text = LenientString(group, name, place);
+  if (!text) return;
+  for (std::size_t i = 0; i < row.words.size(); ++i) {
+    const std::string_view word = row.words[i];  // drafts leave out its first half
+    if (*text == word || *text == word.substr(word.find('_') + 1)) {
+      out = static_cast<Value>(i);
+      return;
+    }
+  }
+  Place(place, name).Warn("\"" + *text + "\" is unknown; " + row.words[0] + " is used");
+}
+template <class Value>
+requires kHasTexture<Value>
+void ReadNamed(const Json& group, const Place& place, const RowOptions& row, const char* name, Value& out) {
+  ReadNamed(group, place, row, name, out.value);
+}
+
+// The parameter that a member of the block is, from a group that may call it otherwise.
+template <class Value>
+void ReadAs(const Json& group, const Place& place, const char* name, Value EnterpriseParameters::*member,
+            EnterpriseParameters& p) {
+  ForEachParameterOf(p, [&](const auto& row, auto& value) {
+    if constexpr (std::is_same_v<decltype(row.member), Value EnterpriseParameters::*>) {
+      if (row.member == member) ReadNamed(group, place, row, name, value);
+    }
+  });
+}
+
+// --- What glTF and its extensions say --------------------------------------------------------------------------------
+
+Textured<float> Number(float value, const TextureRef& texture, int channel) {
+  return {value, texture, static_cast<std::int8_t>(channel)};
+}
+
+EnterpriseParameters FromGltf(const Material& m, const Place& place) {
+  EnterpriseParameters p;
+  p.albedo = {glm::vec3(m.base_color_factor), m.base_color_texture};
+  p.metallic = Number(m.metallic_factor, m.metallic_roughness_texture, 2);
+  p.roughness = Number(m.roughness_factor, m.metallic_roughness_texture, 1);
+  p.normal = {.texture = m.normal_texture, .scale = m.normal_scale};
+  if (m.alpha_mode != AlphaMode::Opaque) p.cutout_opacity = Number(m.base_color_factor.a, m.base_color_texture, 3);
+  p.specular = Number(m.specular_factor, m.specular_texture, 3);
+  p.specular_tint = {glm::min(m.specular_color_factor, glm::vec3(1.0f)), m.specular_color_texture};
+  p.transparency = Number(m.transmission_factor, m.transmission_texture, 0);
+  p.translucency = Number(m.diffuse_transmission_factor, m.diffuse_transmission_texture, 3);
+  p.translucency_color = {m.diffuse_transmission_color_factor, m.diffuse_transmission_color_texture};
+  p.clearcoat = Number(m.clearcoat_factor, m.clearcoat_texture, 0);
+  p.clearcoat_roughness = Number(m.clearcoat_roughness_factor, m.clearcoat_roughness_texture, 1);
+  p.clearcoat_normal = {.texture = m.clearcoat_normal_texture, .scale = m.clearcoat_normal_scale};
+  p.sheen_color = {m.sheen_color_factor, m.sheen_color_texture};
+  p.sheen_roughness = Number(m.sheen_roughness_factor, m.sheen_roughness_texture, 3);
+  p.thin_film = Number(m.iridescence_factor, m.iridescence_texture, 0);
+  p.thin_film_ior = std::clamp(m.iridescence_ior, 1.0f, 2.5f);
+  const float micrometres = m.iridescence_thickness_maximum / 1000.0f;
+  p.thin_film_thickness = Number(std::min(micrometres, 1.0f), m.iridescence_thickness_texture, 1);
+  if (m.iridescence_factor != 0.0f && (micrometres > 1.0f || m.iridescence_thickness_texture)) {
+    place.Warn("the model \"enterprise\" has films from 0 to 1 micrometre");
+  }
+  p.ior = std::max(m.ior, 1.0f);
+  p.thin_walled = m.thickness_factor == 0.0f;
+  p.thickness = m.thickness_factor;
+  if (m.thickness_texture) place.Warn("the model \"enterprise\" ignores the thickness texture");
+  p.attenuation_color = m.attenuation_color;
+  p.attenuation_distance = m.attenuation_distance;
+  p.abbe_number = m.dispersion > 0.0f ? 20.0f / m.dispersion : 0.0f;
+  // glTF states radiance.
+  p.emission_color = {m.emissive_factor, m.emissive_texture};
+  p.emission_value = m.emissive_factor == glm::vec3(0.0f) ? 0.0f : RoundToFiniteFloat(kPi * m.emissive_strength);
+  return p;
+}
+
+}  // namespace
+
+bool IsEnterpriseExtension(std::string_view name) {
+  return std::ranges::find(kEnterpriseExtensions, name) != std::end(kEnterpriseExtensions);
+}
+
+bool IsEnterprise(const Json& material, const Place& place) {
+  const Json* const extensions = LenientObject(material, "extensions", place);
+  return extensions != nullptr &&
+         std::ranges::any_of(extensions->items(), [](const auto& item) { return IsEnterpriseExtension(item.key()); });
+}
+
+void ReadEnterprise(const Json& object, const Place& place, const ReadTextureInfo& read_texture, Material& material) {
+  using P = EnterpriseParameters;
+  P p = FromGltf(material, place);
+  // glTF's sheen is smooth by default, DSPBR's is not.
+  if (ExtensionOf(object, "KHR_materials_sheen", place) == nullptr) p.sheen_roughness = P().sheen_roughness;
+
+  const Place extensions_place(place, "extensions");
+  // Calls read(group, its place) for an extension that the material has.
+  const auto with = [&](const char* name, const auto& read) {
+    if (const Json* group = ExtensionOf(object, name, place)) read(*group, Place(extensions_place, name));
+  };
+  const auto texture_of = [&](const Json& group, const char* name, const Place& where) {
+    const Json* const info = LenientObject(group, name, where);
+    return info != nullptr ? read_texture(*info, Place(where, name)) : TextureRef{};
+  };
+  with("3DS_materials_anisotropy", [&](const Json& group, const Place& where) {
+    ReadAs(group, where, "ansiotropyFactor", &P::anisotropy, p);  // as the draft's schema spells it
+    ReadAs(group, where, "anisotropyFactor", &P::anisotropy, p);
+    ReadAs(group, where, "anisotropyRotationFactor", &P::anisotropy_rotation, p);
+    p.anisotropy.texture = p.anisotropy_rotation.texture = texture_of(group, "anisotropyTexture", where);
+    p.anisotropy_rotation.channel = 1;
+  });
+  with("3DS_materials_translucency", [&](const Json& group, const Place& where) {
+    ReadAs(group, where, "translucencyFactor", &P::translucency, p);
+    p.translucency.texture = texture_of(group, "translucencyTexture", where);
+    p.translucency.channel = 0;
+    p.profile = EnterpriseProfile::V2022x;  // the draft has no colour of translucency
+  });
+  with("3DS_materials_emission", [&](const Json& group, const Place& where) {
+    if (Find(object, "emissiveFactor") == nullptr) p.emission_color.value = glm::vec3(1.0f);
+    p.emission_value = 0.0f;
+    ReadAs(group, where, "emissionValue", &P::emission_value, p);
+    ReadAs(group, where, "emissionMode", &P::emission_mode, p);
+    ReadAs(group, where, "emissionEnergyNormalization", &P::emission_energy_normalization, p);
+  });
+  for (const char* name : {"3DS_materials_sss", "3DS_materials_volume"}) {  // the draft's schema has the second name
+    with(name, [&](const Json& group, const Place& where) {
+      ReadAs(group, where, "subsurfaceColor", &P::subsurface_color, p);
+      ReadAs(group, where, "subsurfaceAsymmetry", &P::subsurface_anisotropy, p);
+    });
+  }
+  with("3DS_materials_enterprise_pbr", [&](const Json& group, const Place& where) {
+    ForEachParameterOf(p, [&](const auto& row, auto& value) { ReadNamed(group, where, row, row.name, value); });
+  });
+  if (p.displacement != glm::vec3(0.0f)) place.Warn("displacement is not drawn");
+
+  Material out;
+  out.name = material.name;
+  out.alpha_mode = material.alpha_mode;
+  out.alpha_cutoff = material.alpha_cutoff;
+  out.double_sided = material.double_sided;
+  out.model = ShadingModel::Enterprise;
+  out.parameters = std::make_shared<const ModelParameters>(std::move(p));
+  material = std::move(out);
+}
+
+}  // namespace facet::gltf
