@@ -377,7 +377,7 @@ TEST(Lecture, SchlickDfgTable) {
     for (const float roughness : {0.1f, 0.2f, 0.33f, 0.5f, 0.77f, 1.0f}) {
       p.roughness.value = roughness;
       for (const double n_dot_v : {0.05, 0.1, 0.2, 0.4, 0.7, 1.0}) {
-        const double r = LectureSeenFrom<double>(p, DirectionOf(n_dot_v)).microfacets.PerceptualRoughness();
+        const double r = LectureSeenFrom<double>(p, DirectionOf(n_dot_v)).microfacets.perceptual_roughness;
         const lanes::SpecularAlbedo<double> read = WhiteLighting().SchlickDfg(alpha, n_dot_v, r);
         p.f0 = 1.0f;
         const double sum = LectureAlbedo(p, n_dot_v, /*of_image=*/true);
@@ -417,6 +417,27 @@ TEST(Lecture, EnergyIsThatOfThePage) {
     }
   }
   EXPECT_EQ(found, int(LectureChoices().size() * kLectureRoughnesses.size()));
+}
+
+// A mirror reads the sharpest radiance, although the terms of punctual lights have a least alpha.
+TEST(Lecture, AMirrorIsSharp) {
+  struct : WhiteLighting {
+    mutable double roughness = -1.0;
+    Vec3<double> Prefiltered(const Vec3<double>&, double r) const {
+      roughness = r;
+      return {1.0, 1.0, 1.0};
+    }
+  } lighting;
+  for (const LectureAlpha alpha : {LectureAlpha::RoughnessSquared, LectureAlpha::Roughness}) {
+    LectureParameters p;
+    p.alpha = alpha;
+    p.roughness.value = 0.0f;
+    LectureSeenFrom<double>(p, DirectionOf(0.5), lighting).Environment(lighting);
+    EXPECT_EQ(lighting.roughness, 0.0);
+    p.roughness.value = 0.25f;
+    LectureSeenFrom<double>(p, DirectionOf(0.5), lighting).Environment(lighting);
+    EXPECT_NEAR(lighting.roughness, alpha == LectureAlpha::Roughness ? 0.5 : 0.25, 1e-12);
+  }
 }
 
 // --- Presets ---------------------------------------------------------------------------------------------------------

@@ -27,9 +27,10 @@ namespace HWY_NAMESPACE {
 // D, and the parameter of the geometry term.
 template <class T>
 struct LectureMicrofacets {
-  T roughness{};  // [0, 1]
-  T alpha{};      // of the GGX with the same peak: 1 / (pi alpha^2) is D at the normal
-  T exponent{};   // of Blinn and Phong's terms
+  T roughness{};             // [0, 1]
+  T alpha{};                 // of the GGX with the same peak: 1 / (pi alpha^2) is D at the normal
+  T exponent{};              // of Blinn and Phong's terms
+  T perceptual_roughness{};  // the square root of alpha, for image-based light: 0 for a mirror
 
   HWY_INLINE LectureMicrofacets() {}
 
@@ -37,7 +38,9 @@ struct LectureMicrofacets {
     constexpr float kLeast = kMinPerceptualRoughness * kMinPerceptualRoughness;
     const auto bounded = [](T value) HWY_ATTR { return Clamp(value, T(kLeast), T(1.0f)); };
     roughness = Clamp(stated_roughness, T(0.0f), T(1.0f));
-    alpha = bounded(p.alpha == LectureAlpha::Roughness ? roughness : roughness * roughness);
+    const bool is_root = p.alpha == LectureAlpha::Roughness;
+    alpha = bounded(is_root ? roughness : roughness * roughness);
+    perceptual_roughness = is_root ? Sqrt(roughness) : roughness;
     const bool is_cosine_lobe =
         p.specular == LectureSpecular::BlinnPhong ||
         (p.specular == LectureSpecular::CookTorrance && p.distribution == LectureDistribution::BlinnPhong);
@@ -45,12 +48,16 @@ struct LectureMicrofacets {
       // A stated exponent has the bound that follows from alpha's.
       exponent = p.exponent == LectureExponent::AlphaP ? T(std::min(p.alpha_p, 2.0f / (kLeast * kLeast) - 2.0f))
                                                        : T(2.0f) / (alpha * alpha) - T(2.0f);
-      if (p.exponent == LectureExponent::AlphaP) alpha = bounded(Sqrt(T(2.0f) / (exponent + T(2.0f))));
+      if (p.exponent == LectureExponent::AlphaP) {
+        alpha = bounded(Sqrt(T(2.0f) / (exponent + T(2.0f))));
+        perceptual_roughness = Sqrt(alpha);
+      }
     } else if (p.specular == LectureSpecular::CookTorrance && p.distribution == LectureDistribution::Abc) {
       const double integral = AbcIntegral(double{BoundedAlpha1(p.alpha1)}, double{p.alpha2});
       constexpr double kTwoPi = 6.28318530717958648;
       abc_peak_ = FromHost(1.0 / (kTwoPi * integral));
       alpha = bounded(Sqrt(FromHost(2.0 * integral)));
+      perceptual_roughness = Sqrt(alpha);
     }
   }
 
@@ -80,9 +87,6 @@ struct LectureMicrofacets {
         p.distribution == LectureDistribution::Beckmann || p.distribution == LectureDistribution::BlinnPhong;
     return is_gaussian ? VisibilitySmithBeckmann(n_dot_l, n_dot_v, alpha) : VisibilitySmith(n_dot_l, n_dot_v, alpha);
   }
-
-  // The roughness of facet's tables and prefiltered radiance.
-  HWY_INLINE T PerceptualRoughness() const { return Sqrt(alpha); }
 
  private:
   static HWY_INLINE T FromHost(double value) {
@@ -165,10 +169,11 @@ struct LectureScattering {
                                       HWY_ATTR { return FresnelSchlickRoughness(f, microfacets.roughness, n_dot_v); };
       k_s = {with_roughness(f0.x), with_roughness(f0.y), with_roughness(f0.z)};
       const Vec3<T> mirror = normal * (T(2.0f) * Dot(normal, view)) - view;
-      const T roughness = microfacets.PerceptualRoughness();
+      const T roughness = microfacets.perceptual_roughness;
+      const T bounded_roughness = Max(roughness, T(kMinPerceptualRoughness));
       const SpecularAlbedo<T> dfg = p.geometry == LectureGeometry::SchlickGgx
-                                        ? lighting.SchlickDfg(p.alpha, n_dot_v, roughness)
-                                        : lighting.Dfg(n_dot_v, roughness);
+                                        ? lighting.SchlickDfg(p.alpha, n_dot_v, bounded_roughness)
+                                        : lighting.Dfg(n_dot_v, bounded_roughness);
       const Vec3<T> albedo{k_s.x * dfg.a + dfg.b, k_s.y * dfg.a + dfg.b, k_s.z * dfg.a + dfg.b};
       radiance = lighting.Prefiltered(mirror, roughness) * albedo;
     }

@@ -65,7 +65,7 @@ HWY_INLINE T VisibilitySchlick(T n_dot_l, T n_dot_v, T k) {
 }
 
 // Height-correlated Smith of Beckmann's distribution: 1 / (1 + Lambda(l) + Lambda(v)), with Lambda by the rational fit
-// of Heitz, 2014, Understanding the Masking-Shadowing Function in Microfacet-Based BRDFs, section 5.3 (after Walter et
+// of Heitz, 2014, Understanding the Masking-Shadowing Function in Microfacet-Based BRDFs (after Walter et
 // al., 2007): (1 - 1.259 a + 0.396 a^2) / (3.535 a + 2.181 a^2) for a = n.x / (alpha sin) below 1.6, else 0. Both
 // cosines are multiplied into it, so that it is finite while n.v > 0 and n.l >= 0.
 template <class T>
