@@ -147,9 +147,7 @@ void CheckModelParameter(const Value& value, const RowOptions& options, const ch
   } else if constexpr (std::is_enum_v<Value>) {
     if (std::size_t(value) >= options.words.size()) Fail(where, std::string(name) + " is no value of its enumeration");
   } else if constexpr (!std::is_same_v<Value, bool>) {
-    if constexpr (std::is_same_v<Value, float>) {
-      if (value == options.range.exception) return;
-    }
+    if (value == Value(options.range.exception)) return;
     CheckRange(value, options.range.low, options.range.high, where, name);
   }
 }

@@ -20,10 +20,10 @@ namespace filament {
 // The factors of what is looked up, all layers above and occlusion included.
 template <class T>
 struct EnvironmentFactors {
-  Vec3<T> specular;    // of microfacets or of cloth's fibres: without their albedo
-  Vec3<T> diffuse;     // of irradiance / pi
-  Vec3<T> subsurface;  // of the same, and of the light from behind
-  Vec3<T> sheen;       // of the layer's fibres: without their albedo
+  Vec3<T> specular{};    // of microfacets or of cloth's fibres: without their albedo
+  Vec3<T> diffuse{};     // of irradiance / pi
+  Vec3<T> subsurface{};  // of the same, and of the light from behind
+  Vec3<T> sheen{};       // of the layer's fibres: without their albedo
   T coat{};            // without its Fresnel term
   T coat_fresnel{};
 };

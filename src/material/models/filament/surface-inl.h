@@ -59,29 +59,29 @@ struct FilamentSurface {
        is_occluded = false;
 
   SurfaceView<T> at;
-  Vec3<T> mirror;          // unit, of the view
-  Vec3<T> diffuse_normal;  // along which diffuse light is looked up
-  Vec3<T> base_color;      // bounded to 1; multiplied by the coverage where blending says so
+  Vec3<T> mirror{};          // unit, of the view
+  Vec3<T> diffuse_normal{};  // along which diffuse light is looked up
+  Vec3<T> base_color{};      // bounded to 1; multiplied by the coverage where blending says so
   T coverage{};
-  Vec3<T> diffuse_color, f0;
+  Vec3<T> diffuse_color{}, f0{};
   T f90{};
   T unclamped_roughness{};  // perceptual, before the clear coat
   T perceptual_roughness{}, alpha{};
   SpecularAlbedo<T> albedo;  // of the microfacets
-  Vec3<T> reflected;         // E: of the microfacets, or of cloth's fibres
-  Vec3<T> compensation;      // of the energy that single scattering loses
+  Vec3<T> reflected{};         // E: of the microfacets, or of cloth's fibres
+  Vec3<T> compensation{};      // of the energy that single scattering loses
   FilamentAnisotropy<T> anisotropy;
-  Vec3<T> sheen_color;
+  Vec3<T> sheen_color{};
   FibreRoughness<T> sheen;
   T fibre_albedo{};  // of sheen or cloth, of colour 1: at most 1
   T fibre_scale{};   // 1 / max(1, E), so that fibres reflect no more than they receive
   SurfaceView<T> coat_at;
   T coat{}, coat_roughness{}, coat_alpha{}, coat_albedo{};  // of F = 1
   T occlusion{};                                            // the share that is visible
-  Vec3<T> subsurface_color;
+  Vec3<T> subsurface_color{};
   T subsurface_power{}, thickness{};
   T transmission{};
-  Vec3<T> emission;
+  Vec3<T> emission{};
 
   // The part of the light that sheen leaves to what is under it.
   HWY_INLINE T SheenLeft() const { return T(1.0f) - MaxComponent(sheen_color) * fibre_albedo; }
