@@ -159,7 +159,8 @@ void CheckMaterial(const Material& material, const Scene& scene, const Where& wh
     Fail(where, "its parameters are not those of its shading model");
   }
   if (has_own) {
-    ForEachParameterOf(*material.parameters, [&](const auto& parameter, const auto& value) {
+    // Defaults are valid, infinite ones too.
+    ForEachStatedParameter(*material.parameters, [&](const auto& parameter, const auto& value) {
       CheckModelParameter(value, parameter, parameter.name, scene, where);
     });
   }

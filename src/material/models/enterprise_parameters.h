@@ -59,20 +59,20 @@ constexpr void ForEachRow(std::type_identity<EnterpriseParameters>, const Visit&
             {.chart = R"({"albedo": [0.1, 0.1, 0.3], "roughness": 0.8, "sheenColor": [0.8, 0.8, 0.8]})",
              .feature = Feature::Sheen}));
   visit(Row("flakeCoverage", &P::flake_coverage, "the share of the surface that flakes cover",
-            {.chart = R"({"flakeColor": [0.8, 0.3, 0.3], "flakeSize": 20, "flakeRoughness": 0.3})"}));
+            {.chart = R"({"flakeColor": [0.8, 0.3, 0.3], "flakeSize": 60, "flakeRoughness": 0.3})"}));
   visit(Row("flakeColor", &P::flake_color, "of what flakes reflect",
-            {.chart = R"({"flakeCoverage": 1, "flakeSize": 20, "flakeRoughness": 0.3})"}));
+            {.chart = R"({"flakeCoverage": 1, "flakeSize": 60, "flakeRoughness": 0.3})"}));
   visit(Row("flakeSize", &P::flake_size, "the diameter of a flake",
             {.range = kNotNegative,
              .unit = "mm",
              .chart = R"({"flakeCoverage": 1, "flakeRoughness": 0.3, "textureScale": 0.02})"}));
   visit(Row("flakeRoughness", &P::flake_roughness, "how much flakes are tilted and blur",
-            {.chart = R"({"flakeCoverage": 1, "flakeColor": [0.1, 0.5, 0.5], "flakeSize": 20})"}));
+            {.chart = R"({"flakeCoverage": 1, "flakeColor": [0.1, 0.5, 0.5], "flakeSize": 60})"}));
   visit(Row("flipFlop", &P::flip_flop, "the strength of the flip-flop colour",
-            {.chart = R"({"flakeCoverage": 1, "flakeSize": 20, "flakeRoughness": 0.3, )"
+            {.chart = R"({"flakeCoverage": 1, "flakeSize": 60, "flakeRoughness": 0.3, )"
                       R"("flipFlopColor": [0.1, 0.7, 0.2]})"}));
   visit(Row("flipFlopColor", &P::flip_flop_color, "of what flakes reflect at normal incidence",
-            {.chart = R"({"flakeCoverage": 1, "flakeSize": 20, "flakeRoughness": 0.3, "flipFlop": 0.6})"}));
+            {.chart = R"({"flakeCoverage": 1, "flakeSize": 60, "flakeRoughness": 0.3, "flipFlop": 0.6})"}));
   visit(Row("clearcoat", &P::clearcoat, "the strength of a clear coat",
             {.chart = R"({"albedo": [0.6, 0.1, 0.1], "roughness": 0.7})", .feature = Feature::Clearcoat}));
   visit(Row(
@@ -133,7 +133,7 @@ constexpr void ForEachRow(std::type_identity<EnterpriseParameters>, const Visit&
   visit(Row("textureScale", &P::texture_scale, "metres in a unit of TEXCOORD_0, for flakes; 0: measured on the mesh",
             {.range = kNotNegative,
              .unit = "m",
-             .chart = R"({"flakeCoverage": 1, "flakeSize": 20, "flakeRoughness": 0.3})"}));
+             .chart = R"({"flakeCoverage": 1, "flakeSize": 60, "flakeRoughness": 0.3})"}));
 }
 
 // The features that the parameters make visible, besides the textures.
