@@ -24,7 +24,7 @@ struct EnvironmentFactors {
   Vec3<T> diffuse{};     // of irradiance / pi
   Vec3<T> subsurface{};  // of the same, and of the light from behind
   Vec3<T> sheen{};       // of the layer's fibres: without their albedo
-  T coat{};            // without its Fresnel term
+  T coat{};              // without its Fresnel term
   T coat_fresnel{};
 };
 

@@ -68,8 +68,8 @@ struct FilamentSurface {
   T unclamped_roughness{};  // perceptual, before the clear coat
   T perceptual_roughness{}, alpha{};
   SpecularAlbedo<T> albedo;  // of the microfacets
-  Vec3<T> reflected{};         // E: of the microfacets, or of cloth's fibres
-  Vec3<T> compensation{};      // of the energy that single scattering loses
+  Vec3<T> reflected{};       // E: of the microfacets, or of cloth's fibres
+  Vec3<T> compensation{};    // of the energy that single scattering loses
   FilamentAnisotropy<T> anisotropy;
   Vec3<T> sheen_color{};
   FibreRoughness<T> sheen;
