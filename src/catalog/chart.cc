@@ -15,6 +15,7 @@ namespace facet {
 namespace {
 
 constexpr int kSteps = 6;
+constexpr std::size_t kMostCells = 8;  // of a row; what is more goes on in the next
 
 // A step of a parameter's way from one end of its range to the other.
 struct Step {
@@ -82,7 +83,7 @@ class Stepper {
         } else if (IsDirection(initial)) {
           add("x " + ShortNumber(double{number}, 3), WithX(initial, number));
         } else {
-          add(ShortNumber(double{number}, 3), Tinted(initial, number));
+          add(ShortNumber(double{number}, 3), Tinted(initial, number, row.range));
         }
       }
     }
@@ -92,9 +93,12 @@ class Stepper {
   static bool IsDirection(const glm::vec4&) { return false; }
   static glm::vec3 WithX(const glm::vec3& direction, float x) { return {x, direction.y, direction.z}; }
   static glm::vec4 WithX(const glm::vec4& direction, float) { return direction; }
-  static glm::vec3 Tinted(const glm::vec3&, float share) { return {share, share * 0.5f, share * 0.2f}; }
-  static glm::vec4 Tinted(const glm::vec4& initial, float share) {
-    return {share, share * 0.5f, share * 0.2f, initial.a};
+  // A reddish colour whose brightest channel is `most`.
+  static glm::vec3 Tinted(const glm::vec3&, float most, ParameterRange range) {
+    return {most, std::max(most * 0.5f, range.low), std::max(most * 0.2f, range.low)};
+  }
+  static glm::vec4 Tinted(const glm::vec4& initial, float most, ParameterRange range) {
+    return {Tinted(glm::vec3(), most, range), initial.a};
   }
 
   template <class Row, class Value>
@@ -123,15 +127,15 @@ Image ChartModel(ShadingModel model) {
   ForEachParameterOf(DefaultsOf(model), [&](const auto& row, const auto&) {
     ModelParameters base = DefaultsOf(model);
     StateParameters(row.chart, row.name, base);
-    SheetRow& chart = rows.emplace_back();
-    chart.label = row.name;
-    if (*row.unit != '\0') chart.label += std::string("\n(") + row.unit + ")";
+    rows.emplace_back().label = row.name;
+    if (*row.unit != '\0') rows.back().label += std::string("\n(") + row.unit + ")";
     for (Step& step : Stepper(base).StepsOf(index++)) {
+      if (rows.back().cells.size() == kMostCells) rows.emplace_back();
       Material material;
       material.model = model;
       if (BaseColorOf(step.parameters).a < 1.0f || row.is_coverage) material.alpha_mode = AlphaMode::Blend;
       material.parameters = std::make_shared<const ModelParameters>(std::move(step.parameters));
-      chart.cells.push_back({material, step.label});
+      rows.back().cells.push_back({material, step.label});
     }
   });
   return DrawSheet(rows).picture;

@@ -66,8 +66,8 @@ Verification Verify(const std::filesystem::path& picture, const std::filesystem:
   }
   if (settings.environment || settings.materials) {
     // What the user does not name is still the picture's to name.
-    const auto resolve = [&](const auto& given, std::optional<std::filesystem::path>& file) {
-      if (file) file = given ? *given : DataPath(scene, *file, named_by.root);
+    const auto resolve = [&](const auto& given, std::optional<std::filesystem::path>& named) {
+      if (named) named = given ? *given : DataPath(scene, *named, named_by.root);
     };
     resolve(settings.environment, request.environment);
     resolve(settings.materials, request.materials);
