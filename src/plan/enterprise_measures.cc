@@ -61,8 +61,8 @@ EnterpriseMeasures MeasuresFor(const EnterpriseParameters& p, const Drawable& dr
   EnterpriseMeasures measures{};
   if (IsPower(p)) measures[0] = mesh.area > 0.0 ? RoundToFiniteFloat(double(p.emission_value) / mesh.area) : 0.0f;
   if (has_volume) {
-    measures[1] =
-        RoundToFiniteFloat(p.thickness == 0.0f ? mesh.mean_chord : double(p.thickness) * MetresPerUnit(drawable));
+    const double unit = MetresPerUnit(drawable);
+    measures[1] = p.thickness != 0.0f ? p.thickness : unit > 0.0 ? RoundToFiniteFloat(mesh.mean_chord / unit) : 0.0f;
   }
   if (has_flakes) {
     measures[2] = p.texture_scale == 0.0f ? RoundToFiniteFloat(mesh.metres_per_uv) : p.texture_scale;
