@@ -95,6 +95,7 @@ class Stepper {
   static glm::vec4 WithX(const glm::vec4& direction, float) { return direction; }
   // A reddish colour whose brightest channel is `most`.
   static glm::vec3 Tinted(const glm::vec3&, float most, ParameterRange range) {
+    if (most == range.exception) return glm::vec3(most);
     return {most, std::max(most * 0.5f, range.low), std::max(most * 0.2f, range.low)};
   }
   static glm::vec4 Tinted(const glm::vec4& initial, float most, ParameterRange range) {

@@ -72,7 +72,8 @@ std::string TableOf(const ModelComparison& comparison) {
   text += padded("", 30);
   for (std::size_t c = 1; c < comparison.models.size(); ++c) text += padded(comparison.models[c], 12);
   for (std::size_t r = 0; r < comparison.materials.size(); ++r) {
-    text += "\n" + padded(comparison.materials[r], 30);
+    text += '\n';
+    text += padded(comparison.materials[r], 30);
     for (std::size_t c = 1; c < comparison.models.size(); ++c) text += padded(ShortNumber(comparison.flip[r][c], 3), 12);
   }
   return text + "\n";

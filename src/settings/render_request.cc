@@ -312,6 +312,7 @@ void ApplyMaterials(const RenderRequest& request, LoadedScene& loaded, const Loa
   const LoadReport read =
       ApplyMaterialFile(loaded.scene, PathOf(*request.materials, named_by, "--materials"), options);
   loaded.report.file_bytes += read.file_bytes;
+  loaded.report.warnings.insert(loaded.report.warnings.end(), read.warnings.begin(), read.warnings.end());
   loaded.report.files.insert(loaded.report.files.end(), read.files.begin(), read.files.end());
 }
 

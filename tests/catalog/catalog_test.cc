@@ -66,7 +66,8 @@ TEST(Catalog, EveryParameterShowsInItsChart) {
     const Image chart = ChartModel(model.model);
     std::size_t row = 0;
     for (const ParameterDescription& parameter : model.parameters) {
-      EXPECT_GE(ChangeAlong(chart, row, 2), 2) << model.name << ": " << parameter.name;
+      const bool is_drawn = parameter.name != "displacement";  // docs/models/enterprise.md
+      EXPECT_EQ(ChangeAlong(chart, row, 2) >= 2, is_drawn) << model.name << ": " << parameter.name;
       row += std::max<std::size_t>((parameter.choices.size() + 7) / 8, 1);  // long lists go on in the next row
     }
   }
