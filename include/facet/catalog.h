@@ -1,6 +1,7 @@
 // The shading models that have parameters of their own: what they are, as text, as a schema and as pictures.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,14 +12,15 @@
 namespace facet {
 
 struct ParameterDescription {
-  std::string name;            // as the model's documentation and material files write it
-  std::string type;            // "number", "colour", "colour with alpha", "direction", "choice" or "true or false"
+  std::string name;  // as the model's documentation and material files write it
+  std::string type;  // "number", "colour", "colour with alpha", "direction", "choice" or "true or false"
   std::vector<std::string> choices;  // of a choice
-  std::vector<float> initial;  // its default; of a choice, the index
-  float low = 0.0f, high = 0.0f;  // the range of each number; may be infinite
-  std::string unit;            // empty: none
-  std::string meaning;         // a phrase
-  bool textured = false;       // whether a texture may scale it
+  std::vector<float> initial;        // its default; of a choice, the index
+  float low = 0.0f, high = 0.0f;     // the range of each number; may be infinite
+  std::optional<float> other;        // one more value that each number may have
+  std::string unit;                  // empty: none
+  std::string meaning;               // a phrase
+  bool textured = false;             // whether a texture may scale it
 };
 
 struct ModelDescription {
@@ -41,7 +43,7 @@ Image ChartModel(ShadingModel model);
 
 // The same base colour, metalness and roughness, drawn by glTF's model and by each model with parameters of its own.
 struct ModelComparison {
-  std::vector<std::string> models;    // the columns; the first is glTF's
+  std::vector<std::string> models;     // the columns; the first is glTF's
   std::vector<std::string> materials;  // the rows
   // By row and column: the mean FLIP (facet/compare.h) against glTF's model, over the sphere's square.
   std::vector<std::vector<double>> flip;

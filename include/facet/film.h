@@ -48,14 +48,14 @@ enum class Transfer : std::uint8_t { Srgb, Gamma };
 // sensitivity) (Lagarde and de Rousiers, 2014, Moving Frostbite to Physically Based Rendering, section 5.1.1). For
 // lights in their own units: lux and candela.
 struct CameraExposure {
-  double aperture = 16.0;             // f-number, 0.1 to 1000
+  double aperture = 16.0;              // f-number, 0.1 to 1000
   double shutter_seconds = 1 / 125.0;  // 1e-6 to 1e6
-  double iso = 100.0;                 // 1 to 1e7
+  double iso = 100.0;                  // 1 to 1e7
 };
 
 // Changes to exposed light before the tone curve, in this order. The defaults change nothing.
 struct ColorGrading {
-  double temperature = 0.0, tint = 0.0;  // white balance: of the light that is to be white, -1 to 1
+  double temperature = 0.0, tint = 0.0;  // white balance, -1 to 1: from blue to yellow, from green to magenta
   double contrast = 1.0;                 // 0 to 2: the exponent around middle grey
   double saturation = 1.0;               // 0 to 2
   // Curves, by channel: below `middle` a power with the middle fixed, above it a line of slope `scale`.

@@ -18,10 +18,9 @@ struct Look {
   glm::vec3 base_color;
   float metalness;
 };
-constexpr std::array kLooks = {Look{"white plastic", glm::vec3(0.8f), 0.0f},
-                               Look{"red plastic", glm::vec3(0.7f, 0.05f, 0.03f), 0.0f},
-                               Look{"half metal", glm::vec3(0.7f, 0.5f, 0.3f), 0.5f},
-                               Look{"gold", glm::vec3(1.0f, 0.78f, 0.34f), 1.0f}};
+constexpr std::array kLooks = {
+    Look{"white plastic", glm::vec3(0.8f), 0.0f}, Look{"red plastic", glm::vec3(0.7f, 0.05f, 0.03f), 0.0f},
+    Look{"half metal", glm::vec3(0.7f, 0.5f, 0.3f), 0.5f}, Look{"gold", glm::vec3(1.0f, 0.78f, 0.34f), 1.0f}};
 constexpr std::array kRoughnesses = {0.0f, 0.25f, 0.5f, 1.0f};
 
 void Set(Textured<float>& parameter, float value) { parameter.value = value; }

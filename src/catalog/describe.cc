@@ -1,4 +1,6 @@
 // DescribeModels() of facet/catalog.h: the tables of parameters as text.
+#include <cmath>
+
 #include "facet/catalog.h"
 #include "material/model_parameters.h"
 #include "material/models/models.h"
@@ -56,6 +58,7 @@ std::vector<ModelDescription> DescribeModels() {
       parameter.choices.assign(row.words.begin(), row.words.end());
       parameter.initial = Numbers(value);
       parameter.low = row.range.low, parameter.high = row.range.high;
+      if (!std::isnan(row.range.exception)) parameter.other = row.range.exception;
       parameter.unit = row.unit;
       parameter.meaning = row.meaning;
       parameter.textured = kHasTexture<Value>;

@@ -14,7 +14,8 @@ Json NumberIn(const ParameterDescription& parameter) {
   Json number = {{"type", "number"}};
   if (std::isfinite(parameter.low)) number["minimum"] = parameter.low;
   if (std::isfinite(parameter.high)) number["maximum"] = parameter.high;
-  return number;
+  if (!parameter.other || !std::isfinite(*parameter.other)) return number;
+  return {{"anyOf", {number, {{"const", *parameter.other}}}}};
 }
 
 Json SchemaOf(const ParameterDescription& parameter) {

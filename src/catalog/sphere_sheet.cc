@@ -1,13 +1,13 @@
 #include "catalog/sphere_sheet.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
 #include "facet/film.h"
 #include "facet/render.h"
 #include "image/draw_text.h"
 #include "material/features.h"
+#include "math/elementary.h"
 
 namespace facet {
 namespace {
@@ -25,7 +25,7 @@ Primitive Sphere() {
     for (int k = 0; k <= kSegments; ++k) {
       const double v = double(i) / kRings, u = double(k) / kSegments;
       const double theta = std::numbers::pi * v, phi = 2.0 * std::numbers::pi * u;
-      const glm::dvec3 n(std::sin(theta) * std::sin(phi), std::cos(theta), std::sin(theta) * std::cos(phi));
+      const glm::dvec3 n(Sin(theta) * Sin(phi), Cos(theta), Sin(theta) * Cos(phi));
       sphere.positions.emplace_back(n);
       sphere.normals.emplace_back(n);
       sphere.tex_coords[0].emplace_back(u, v);

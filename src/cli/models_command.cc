@@ -27,8 +27,11 @@ std::string Joined(const std::vector<std::string>& parts, const char* between) {
 std::string RangeOf(const ParameterDescription& p) {
   if (p.type == "choice") return Joined(p.choices, " | ");
   if (p.type == "true or false" || p.type == "direction") return "";
-  if (std::isinf(p.high)) return std::isinf(p.low) ? "" : ShortNumber(double{p.low}) + " or more";
-  return ShortNumber(double{p.low}) + " to " + ShortNumber(double{p.high});
+  if (std::isinf(p.high) && std::isinf(p.low)) return "";
+  const std::string low = ShortNumber(double{p.low});
+  std::string range = std::isinf(p.high) ? low + " or more" : low + " to " + ShortNumber(double{p.high});
+  if (p.other) range += ", or " + ShortNumber(double{*p.other});
+  return range;
 }
 
 std::string DefaultOf(const ParameterDescription& p) {
@@ -56,7 +59,8 @@ std::string TextOf(const ModelDescription& model) {
 Json JsonOf(const ModelDescription& model) {
   Json parameters = Json::array();
   for (const ParameterDescription& p : model.parameters) {
-    Json json = {{"name", p.name}, {"type", p.type}, {"meaning", p.meaning}, {"unit", p.unit}, {"textured", p.textured}};
+    Json json = {
+        {"name", p.name}, {"type", p.type}, {"meaning", p.meaning}, {"unit", p.unit}, {"textured", p.textured}};
     if (p.type == "choice") json["choices"] = p.choices;
     const auto number = [](float value) { return std::isfinite(value) ? Json(value) : Json(nullptr); };
     json["low"] = number(p.low), json["high"] = number(p.high);
@@ -68,13 +72,16 @@ Json JsonOf(const ModelDescription& model) {
 
 std::string TableOf(const ModelComparison& comparison) {
   std::string text = "Mean FLIP against " + comparison.models[0] + ":\n\n";
-  const auto padded = [](std::string cell, std::size_t width) { return cell.append(width - std::min(width, cell.size()), ' '); };
+  const auto padded = [](std::string cell, std::size_t width) {
+    return cell.append(width - std::min(width, cell.size()), ' ');
+  };
   text += padded("", 30);
   for (std::size_t c = 1; c < comparison.models.size(); ++c) text += padded(comparison.models[c], 12);
   for (std::size_t r = 0; r < comparison.materials.size(); ++r) {
     text += '\n';
     text += padded(comparison.materials[r], 30);
-    for (std::size_t c = 1; c < comparison.models.size(); ++c) text += padded(ShortNumber(comparison.flip[r][c], 3), 12);
+    for (std::size_t c = 1; c < comparison.models.size(); ++c)
+      text += padded(ShortNumber(comparison.flip[r][c], 3), 12);
   }
   return text + "\n";
 }
@@ -91,10 +98,13 @@ void RunModels(const ModelsOptions& options) {
     if (options.name.empty() || options.name == model.name) chosen.push_back(model);
   }
   if (chosen.empty()) {
-    throw Error(ErrorCode::InvalidUsage, "there is no model " + Quoted(options.name), {}, "use one of " + Joined(names, ", "));
+    throw Error(ErrorCode::InvalidUsage, "there is no model " + Quoted(options.name), {},
+                "use one of " + Joined(names, ", "));
   }
   if (options.chart) {
-    if (options.name.empty()) throw Error(ErrorCode::InvalidUsage, "a chart is of one model", "--chart", "name it: facet models filament --chart OUT.png");
+    if (options.name.empty())
+      throw Error(ErrorCode::InvalidUsage, "a chart is of one model", "--chart",
+                  "name it: facet models filament --chart OUT.png");
     WriteImage(*options.chart, ChartModel(chosen[0].model));
   } else if (options.compare) {
     const ModelComparison comparison = CompareModels();
@@ -109,8 +119,8 @@ void RunModels(const ModelsOptions& options) {
   } else {
     std::string text;
     for (const ModelDescription& model : models) {
-      text += model.name + "  (" + std::to_string(model.parameters.size()) + " parameters)\n  " + model.summary + "\n  " +
-              model.source + ".\n";
+      text += model.name + "  (" + std::to_string(model.parameters.size()) + " parameters)\n  " + model.summary +
+              "\n  " + model.source + ".\n";
     }
     PrintOutput(text);
   }

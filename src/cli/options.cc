@@ -351,14 +351,17 @@ CLI::App& AddReport(CLI::App& program, ReportOptions& options) {
 CLI::App& AddModels(CLI::App& program, ModelsOptions& options) {
   CommandPage page(program, "models", "Shading models beside glTF's, and their parameters", "[NAME] [OPTIONS]",
                    std::string("facet render IN -o OUT --materials FILE gives them to a scene\n"
-                               "(docs/material-files.md).\n\n") + kExitCodes);
+                               "(docs/material-files.md).\n\n") +
+                       kExitCodes);
   CLI::App& app = page.app();
   app.add_option("NAME", options.name, "One of the models [all]")->option_text(" ");
   const std::string group = "Options";
-  Add(app, group, "--chart", "FILE", "A picture of each parameter of the model NAME from\none end of its range to the other",
+  Add(app, group, "--chart", "FILE",
+      "A picture of each parameter of the model NAME from\none end of its range to the other",
       [&](const std::string& text) { options.chart = text; });
   Add(app, group, "--compare", "FILE",
-      "A picture of the same base colours, metalnesses\nand roughnesses by all models; prints how far each\nis from glTF's",
+      "A picture of the same base colours, metalnesses\nand roughnesses by all models; prints how far each\nis from "
+      "glTF's",
       [&](const std::string& text) { options.compare = text; });
   AddFlag(app, group, "--schema", "Print the JSON schema of material files", options.schema);
   AddFlag(app, group, "--json", "As JSON with stable keys", options.json);

@@ -24,9 +24,8 @@ HWY_INLINE Vec3<T> Grade(const GradingFactors& grading, Vec3<T> light) {
   if (grading.contrast != 1.0f) {
     // A power around middle grey, which is a line in stops.
     constexpr float kMiddleGrey = 0.18f;
-    const auto steeper = [&](T x) HWY_ATTR {
-      return T(kMiddleGrey) * Pow(x * T(1.0f / kMiddleGrey), T(grading.contrast));
-    };
+    const auto steeper = [&](T x)
+                             HWY_ATTR { return T(kMiddleGrey) * Pow(x * T(1.0f / kMiddleGrey), T(grading.contrast)); };
     c = BoundLight(Vec3<T>{steeper(c.x), steeper(c.y), steeper(c.z)});
   }
   if (grading.saturation != 1.0f) {

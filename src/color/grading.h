@@ -16,8 +16,9 @@ struct GradingFactors {
 };
 
 // The matrix that makes the white of another light the white of the picture, by scaling the responses of cones (CAT16;
-// Li et al., 2017, "Comprehensive color solutions: CAM16, CAT16, and CAM16-UCS"). `temperature` and `tint`: -1 to 1,
-// from blue to yellow and from green to magenta, along the daylight locus and across it; 0 and 0 are D65.
+// Li et al., 2017, "Comprehensive color solutions: CAM16, CAT16, and CAM16-UCS"). `temperature` and `tint`: -1 to 1;
+// they turn the picture from blue to yellow and from green to magenta, by taking a bluer or greener light for white,
+// along the daylight locus and across it. 0 and 0 are D65.
 void SetWhiteBalance(double temperature, double tint, float (&matrix)[9]);
 
 }  // namespace facet

@@ -36,16 +36,16 @@ template <class T>
 HWY_INLINE Vec3<T> IctcpFromRec2020(Vec3<T> light) {
   constexpr float kCones[9] = {1688.0f / 4096, 2146.0f / 4096, 262.0f / 4096, 683.0f / 4096, 2951.0f / 4096,
                                462.0f / 4096,  99.0f / 4096,   309.0f / 4096, 3688.0f / 4096};
-  constexpr float kOpponent[9] = {0.5f,           0.5f,           0.0f,  6610.0f / 4096, -13613.0f / 4096,
-                                  7003.0f / 4096, 17933.0f / 4096, -17390.0f / 4096, -543.0f / 4096};
+  constexpr float kOpponent[9] = {
+      0.5f,          0.5f, 0.0f, 6610.0f / 4096, -13613.0f / 4096, 7003.0f / 4096, 17933.0f / 4096, -17390.0f / 4096,
+      -543.0f / 4096};
   const Vec3<T> c = Transform(kCones, light);
   return Transform(kOpponent, Vec3<T>{PqFromLight(c.x), PqFromLight(c.y), PqFromLight(c.z)});
 }
 template <class T>
 HWY_INLINE Vec3<T> Rec2020FromIctcp(Vec3<T> color) {
-  constexpr float kCodes[9] = {1.0f, 0.00860904f,  0.11103f, 1.0f,     -0.00860904f,
-                               -0.11103f, 1.0f, 0.560031f, -0.320627f};
-  constexpr float kLight[9] = {3.43661f,  -2.50645f,   0.06984f,    -0.79133f, 1.9836f,
+  constexpr float kCodes[9] = {1.0f, 0.00860904f, 0.11103f, 1.0f, -0.00860904f, -0.11103f, 1.0f, 0.560031f, -0.320627f};
+  constexpr float kLight[9] = {3.43661f,   -2.50645f,   0.06984f,    -0.79133f, 1.9836f,
                                -0.192271f, -0.0259499f, -0.0989137f, 1.12486f};
   const Vec3<T> c = Transform(kCodes, color);
   return Transform(kLight, Vec3<T>{LightFromPq(c.x), LightFromPq(c.y), LightFromPq(c.z)});

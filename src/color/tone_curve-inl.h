@@ -82,7 +82,7 @@ HWY_INLINE Vec3<T> FilmicCurve(Vec3<T> light) {
 template <class T>
 HWY_INLINE Vec3<T> GenericCurve(Vec3<T> light) {
   constexpr float kContrast = 1.55f, kMiddle = 0.215f;
-  constexpr double kIn = 0.0700935009, kWhite = 35.4813389;  // 0.18^1.55 and 10^1.55
+  constexpr double kIn = 0.0700926343770688, kWhite = 35.48133892335755;  // 0.18^1.55 and 10^1.55
   constexpr double kBelow = kIn - double{kMiddle} * kWhite;
   constexpr auto kInput = static_cast<float>(kIn * kWhite * (double{kMiddle} - 1.0) / kBelow);
   constexpr auto kOutput = static_cast<float>(double{kMiddle} * (kIn - kWhite) / kBelow);
@@ -128,9 +128,7 @@ HWY_INLINE Vec3<T> AgXCurve(Vec3<T> light, const AgXLook& look) {
   };
   Vec3<T> curved{curve(v.x), curve(v.y), curve(v.z)};
   if (look.power != 1.0f || look.saturation != 1.0f) {
-    const auto graded = [&](T x, float slope) HWY_ATTR {
-      return Pow(Max(x * T(slope), T(0.0f)), T(look.power));
-    };
+    const auto graded = [&](T x, float slope) HWY_ATTR { return Pow(Max(x * T(slope), T(0.0f)), T(look.power)); };
     curved = {graded(curved.x, look.slope[0]), graded(curved.y, look.slope[1]), graded(curved.z, look.slope[2])};
     const T luminance = T(0.2126f) * curved.x + T(0.7152f) * curved.y + T(0.0722f) * curved.z;
     const Vec3<T> grey{luminance, luminance, luminance};

@@ -124,8 +124,9 @@ std::vector<Ablation> Ablations(const RenderSettings& settings, const FramePlan&
     if (!plan.uses.Has(known.feature)) continue;
     const std::string word(known.word);
     add(word, "--without " + already + word).without.Add(known.feature);
-    ablations.back().needs_table = (known.feature == Feature::Anisotropy && plan.albedo_tables.anisotropic_dfg) ||
-                                   (known.feature == Feature::Sheen && plan.albedo_tables.sheen);
+    ablations.back().needs_table =
+        (known.feature == Feature::Anisotropy && plan.albedo_tables.anisotropic_dfg) ||
+        (known.feature == Feature::Sheen && (plan.albedo_tables.sheen || plan.albedo_tables.cloth));
   }
   if (plan.environment_background) add("background", "--background transparent").background = Background::Transparent;
   if (!plan.planes.empty()) add("planes", "--planes none").planes.clear();

@@ -17,8 +17,9 @@ namespace {
 
 void CheckRange(double value, double low, double high, const char* what, const char* where) {
   if (value >= low && value <= high) return;
-  throw Error(ErrorCode::InvalidUsage, std::string(what) + " of " + ShortNumber(value) + " is not in [" +
-                                           ShortNumber(low) + ", " + ShortNumber(high) + "]",
+  throw Error(ErrorCode::InvalidUsage,
+              std::string(what) + " of " + ShortNumber(value) + " is not in [" + ShortNumber(low) + ", " +
+                  ShortNumber(high) + "]",
               where);
 }
 

@@ -14,7 +14,8 @@ void DrawText(Image& image, int x, int y, std::string_view text, unsigned char s
         const bool inked = (glyph[row] >> (kFontWidth - 1 - column) & 1) != 0;
         if (!inked || px < 0 || py < 0 || px >= image.width || py >= image.height) continue;
         unsigned char* const pixel =
-            image.As<unsigned char>() + (std::size_t(py) * std::size_t(image.width) + std::size_t(px)) * std::size_t(image.channels);
+            image.As<unsigned char>() +
+            (std::size_t(py) * std::size_t(image.width) + std::size_t(px)) * std::size_t(image.channels);
         std::fill_n(pixel, colors, shade);
       }
     }

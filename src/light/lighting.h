@@ -19,7 +19,7 @@ struct LightingData {
   const SheenTable* sheen = nullptr;            // null: no material has sheen
   const SheenTable* cloth = nullptr;            // null: no material has Filament's fibres
   const AnisotropicDfgTable* anisotropic_dfg = nullptr;           // null: no material is anisotropic
-  const DfgTable* schlick_dfg[2] = {};          // of either LectureAlpha; null: no material reads it
+  const DfgTable* schlick_dfg[2] = {};                            // of either LectureAlpha; null: no material reads it
   float environment_from_world[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};  // row by row: d_env[r] = sum over c of m[3 r + c] d[c]
   float environment_intensity = 1.0f;
 };

@@ -101,14 +101,14 @@ struct Closure {
   HWY_INLINE Closure(const MaterialInputs<T>& in, const Vec3<T>& view, const Lighting& lighting)
       : at{in.normal, view, Clamp(Dot(in.normal, view), T(kMinNDotV), T(1.0f))},
         lobes(in.lobes),
-        microfacets(WidenedRoughness(in.perceptual_roughness, in.footprint_alpha2)) {
+        microfacets(DrawnRoughness(in.perceptual_roughness, in.footprint_alpha2)) {
     const T zero(0.0f), one(1.0f);
     const Vec3<T> base{Clamp(in.base_color.x, zero, one), Clamp(in.base_color.y, zero, one),
                        Clamp(in.base_color.z, zero, one)};
     const T metallic = Clamp(in.metallic, zero, one);
     if (Has(kAnisotropy)) {
       anisotropic =
-          AnisotropicMicrofacets<T>(WidenedRoughness(in.perceptual_roughness, in.footprint_alpha2), in.anisotropy);
+          AnisotropicMicrofacets<T>(DrawnRoughness(in.perceptual_roughness, in.footprint_alpha2), in.anisotropy);
     }
     specular = MakeSpecular(in, base, metallic, lighting);
     diffuse = DiffuseLobe<T>(base, metallic, specular);

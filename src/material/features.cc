@@ -46,7 +46,8 @@ MaterialFeatures FeaturesOf(const Material& m, bool on_surface) {
   set(m.alpha_mode == AlphaMode::Blend, kAlphaBlend);
   set(m.double_sided, kDoubleSided);
   set(lit, kLit);
-  if (m.parameters != nullptr) return features | FeaturesOfParameters(*m.parameters, lit, m.alpha_mode == AlphaMode::Opaque);
+  if (m.parameters != nullptr)
+    return features | FeaturesOfParameters(*m.parameters, lit, m.alpha_mode == AlphaMode::Opaque);
   const auto shows = [&](const auto& row, MaterialFeatures bit) {
     return (model.reads & bit) != 0 && (lit || !row.needs_light) && row.is_visible(m);
   };

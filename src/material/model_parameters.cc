@@ -8,7 +8,8 @@ namespace {
 
 template <class Block, class Value>
 SlotInfo MakeSlot(const ModelParameter<Block, Value>& parameter, std::size_t number) {
-  constexpr bool kIsNumber = std::is_same_v<Value, Textured<float>>, kIsDirection = std::is_same_v<Value, TangentSpaceNormal>;
+  constexpr bool kIsNumber = std::is_same_v<Value, Textured<float>>,
+                 kIsDirection = std::is_same_v<Value, TangentSpaceNormal>;
   constexpr bool kHasAlpha = std::is_same_v<Value, Textured<glm::vec4>>;
   SlotInfo slot{};
   slot.slot = static_cast<Slot>(number);
@@ -30,7 +31,8 @@ const std::vector<SlotInfo>& SlotsOfBlock() {
     std::size_t row = 0;
     ForEachRow(std::type_identity<Block>(), [&](const auto& parameter) {
       const std::size_t number = SlotNumber<Block>(row++);
-      if constexpr (requires { (std::declval<Block>().*parameter.member).texture; }) made.push_back(MakeSlot(parameter, number));
+      if constexpr (requires { (std::declval<Block>().*parameter.member).texture; })
+        made.push_back(MakeSlot(parameter, number));
     });
     return made;
   }();

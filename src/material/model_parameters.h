@@ -44,8 +44,8 @@ void ForEachStatedParameter(const ModelParameters& parameters, const Visit& visi
 // --- Texture slots --------------------------------------------------------------------------------------------------
 
 // The textures of a block have slots of their own: the first is that of the base colour; those in tangent space have
-// the numbers of glTF's in tangent space, so that they, too, are asked for by kTangentSpaceBits; the others follow in the
-// order of the rows. Returns kMaxSlots for a parameter without a texture.
+// the numbers of glTF's in tangent space, so that they, too, are asked for by kTangentSpaceBits; the others follow in
+// the order of the rows. Returns kMaxSlots for a parameter without a texture.
 template <class Block>
 constexpr std::size_t SlotNumber(std::size_t row) {
   constexpr std::array kInTangentSpace = {Slot::Normal, Slot::ClearcoatNormal, Slot::Anisotropy};

@@ -36,8 +36,8 @@ std::string Listed(const std::vector<std::string>& names) {
 
 std::string InWords(ParameterRange range) {
   const std::string low = ShortNumber(double{range.low}), high = ShortNumber(double{range.high});
-  std::string text = std::isinf(range.high) ? (std::isinf(range.low) ? "any number" : low + " or more")
-                                            : low + " to " + high;
+  std::string text =
+      std::isinf(range.high) ? (std::isinf(range.low) ? "any number" : low + " or more") : low + " to " + high;
   if (!std::isnan(range.exception)) text += ", or " + ShortNumber(double{range.exception});
   return text;
 }
@@ -58,8 +58,15 @@ void ReadValue(const JsonValue& value, const RowOptions& options, glm::vec<kLeng
   if (size < least || size > std::size_t{kLength}) {
     value.Fail("has " + std::to_string(size) + " numbers", kLength == 4 ? "give 3 or 4" : "give 3");
   }
+  int exceptions = 0;
   for (std::size_t c = 0; c < size; ++c) {
-    ReadValue({value.json[c], value.pointer / c, value.file}, options, out[static_cast<int>(c)]);
+    float& number = out[static_cast<int>(c)];
+    ReadValue({value.json[c], value.pointer / c, value.file}, options, number);
+    exceptions += number == options.range.exception ? 1 : 0;
+  }
+  if (exceptions != 0 && exceptions != kLength) {
+    value.Fail("mixes " + ShortNumber(double{options.range.exception}) + " with other numbers",
+               "give one or the other");
   }
 }
 
@@ -68,7 +75,7 @@ void ReadValue(const JsonValue& value, const RowOptions&, bool& out) {
 }
 
 template <class Value>
-  requires std::is_enum_v<Value>
+requires std::is_enum_v<Value>
 void ReadValue(const JsonValue& value, const RowOptions& options, Value& out) {
   const auto place = std::ranges::find(options.words, value.Text());
   if (place == options.words.end()) {
@@ -79,10 +86,8 @@ void ReadValue(const JsonValue& value, const RowOptions& options, Value& out) {
 }
 
 template <class Value>
-  requires kHasTexture<Value>
-void ReadValue(const JsonValue& value, const RowOptions& options, Value& out) {
-  ReadValue(value, options, out.value);
-}
+requires kHasTexture<Value>
+void ReadValue(const JsonValue& value, const RowOptions& options, Value& out) { ReadValue(value, options, out.value); }
 
 // What a parameter is where only its texture is given: nothing is taken away from it.
 void MakeNeutral(float& value) { value = 1.0f; }
@@ -106,7 +111,14 @@ void RefuseUnknown(const JsonValue& parameters, const JsonValue* textures) {
 class MaterialFile {
  public:
   MaterialFile(Scene& scene, const std::filesystem::path& path, const LoadOptions& options, LoadReport& report)
-      : scene_(scene), path_(path), name_(Printable(path.string())), root_(options.root), report_(report) {}
+      : scene_(scene),
+        path_(path),
+        name_(Printable(path.string())),
+        root_(options.root),
+        report_(report),
+        materials_(scene.materials),
+        images_(scene.images),
+        textures_(scene.textures) {}
 
   void Apply() {
     const Bytes bytes = ReadFile(path_);
@@ -124,9 +136,22 @@ class MaterialFile {
     for (std::size_t i = 0; i < entries.json.size(); ++i) {
       ReadEntry({entries.json[i], entries.pointer / i, name_});
     }
+    Commit();
   }
 
  private:
+  // Nothing in the scene changes before all of the file has been read.
+  void Commit() {
+    for (Mesh& mesh : scene_.meshes) {
+      for (Primitive& primitive : mesh.primitives) {
+        if (default_material_ >= 0 && primitive.material < 0) primitive.material = default_material_;
+      }
+    }
+    scene_.materials = std::move(materials_);
+    scene_.images = std::move(images_);
+    scene_.textures = std::move(textures_);
+  }
+
   void ReadEntry(const JsonValue& entry) {
     entry.ExpectObject(
         std::array{"match", "model", "preset", "parameters", "textures", "alphaMode", "alphaCutoff", "doubleSided"});
@@ -142,13 +167,13 @@ class MaterialFile {
     ReadCommon(entry, changes);
     WarnOfIgnored(*changes.parameters, entry);
     for (const std::size_t index : Matching(entry["match"])) {
-      Material& material = scene_.materials[index];
-      Material changed = changes;
-      changed.name = material.name;
-      if (!states_alpha_mode_) changed.alpha_mode = material.alpha_mode;
-      if (!entry.Has("alphaCutoff")) changed.alpha_cutoff = material.alpha_cutoff;
-      if (!entry.Has("doubleSided")) changed.double_sided = material.double_sided;
-      material = changed;
+      static const Material plain;
+      const Material& of_scene = index < scene_.materials.size() ? scene_.materials[index] : plain;
+      Material& material = materials_[index] = changes;
+      material.name = of_scene.name;
+      if (!states_alpha_mode_) material.alpha_mode = of_scene.alpha_mode;
+      if (!entry.Has("alphaCutoff")) material.alpha_cutoff = of_scene.alpha_cutoff;
+      if (!entry.Has("doubleSided")) material.double_sided = of_scene.double_sided;
     }
   }
 
@@ -190,34 +215,29 @@ class MaterialFile {
     const auto matches = [&](const std::string& name) { return fnmatch(text.c_str(), name.c_str(), 0) == 0; };
     if (matches("")) NameDefaultMaterial();
     const std::size_t before = found.size();
-    for (std::size_t i = 0; i < scene_.materials.size(); ++i) {
-      if (matches(scene_.materials[i].name)) found.push_back(i);
+    for (std::size_t i = 0; i < materials_.size(); ++i) {
+      if (matches(materials_[i].name)) found.push_back(i);
     }
     if (found.size() != before) return;
     constexpr std::size_t kMostNamed = 12;
     std::vector<std::string> names;
-    for (const Material& material : scene_.materials) {
+    for (const Material& material : materials_) {
       if (names.size() == kMostNamed) break;
       names.push_back(Quoted(material.name));
     }
-    if (names.size() < scene_.materials.size()) names.emplace_back("...");
+    if (names.size() < materials_.size()) names.emplace_back("...");
     pattern.Fail("no material's name matches " + Quoted(text),
                  names.empty() ? "the scene has no materials" : "the scene has " + Listed(names));
   }
 
   // Primitives without a material get one of their own, with an empty name.
   void NameDefaultMaterial() {
-    int index = -1;
-    for (Mesh& mesh : scene_.meshes) {
-      for (Primitive& primitive : mesh.primitives) {
-        if (primitive.material >= 0) continue;
-        if (index < 0) {
-          index = static_cast<int>(scene_.materials.size());
-          scene_.materials.emplace_back();
-        }
-        primitive.material = index;
-      }
-    }
+    const auto lacks = [](const Mesh& mesh) {
+      return std::ranges::any_of(mesh.primitives, [](const Primitive& p) { return p.material < 0; });
+    };
+    if (default_material_ >= 0 || std::ranges::none_of(scene_.meshes, lacks)) return;
+    default_material_ = static_cast<int>(materials_.size());
+    materials_.emplace_back();
   }
 
   template <class Block>
@@ -311,7 +331,8 @@ class MaterialFile {
   static void ReadPair(const JsonValue& value, glm::vec2& out) {
     if (!value.json.is_array() || value.json.size() != 2) value.Fail("is no pair of numbers");
     for (int c = 0; c < 2; ++c) {
-      ReadValue({value.json[std::size_t(c)], value.pointer / std::size_t(c), value.file}, {.range = kAnyNumber}, out[c]);
+      ReadValue({value.json[std::size_t(c)], value.pointer / std::size_t(c), value.file}, {.range = kAnyNumber},
+                out[c]);
     }
   }
 
@@ -339,13 +360,13 @@ class MaterialFile {
     }
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(path, ignored)) picture.Fail("there is no file " + Quoted(path.string()));
-    const auto [known, is_new] = images_.try_emplace(path.string(), static_cast<int>(scene_.images.size()));
+    const auto [known, is_new] = image_of_path_.try_emplace(path.string(), static_cast<int>(images_.size()));
     if (is_new) {
-      scene_.images.push_back({path.filename().string(), gltf::OpenPicture(path)});
+      images_.push_back({path.filename().string(), gltf::OpenPicture(path)});
       report_.files.push_back(path);
     }
-    scene_.textures.push_back({path.filename().string(), known->second, sampler});
-    return static_cast<int>(scene_.textures.size()) - 1;
+    textures_.push_back({path.filename().string(), known->second, sampler});
+    return static_cast<int>(textures_.size()) - 1;
   }
 
   Scene& scene_;
@@ -353,8 +374,12 @@ class MaterialFile {
   const std::string name_;
   const std::filesystem::path root_;
   LoadReport& report_;
-  std::map<std::string, int> images_;  // by path: index into Scene::images
-  bool states_alpha_mode_ = false;     // of the entry that is being read
+  std::vector<Material> materials_;
+  std::vector<SceneImage> images_;
+  std::vector<Texture> textures_;
+  std::map<std::string, int> image_of_path_;
+  int default_material_ = -1;       // of primitives without one; -1: they are left without
+  bool states_alpha_mode_ = false;  // of the entry that is being read
 };
 
 }  // namespace
@@ -376,9 +401,7 @@ LoadReport ApplyMaterialFile(Scene& scene, const std::filesystem::path& file, co
   MemoryBudget budget(options.memory_limit);
   const MemoryBudget::Scope scope(budget);
   LoadReport report;
-  Scene changed = scene;
-  MaterialFile(changed, file, options, report).Apply();
-  scene = std::move(changed);
+  MaterialFile(scene, file, options, report).Apply();
   return report;
 }
 

@@ -37,7 +37,9 @@ struct FrameMaterial {
   bool Has(MaterialFeatures feature) const { return (features & feature) != 0; }
   bool Reads(Slot slot) const { return Has(BitOf(slot)); }
   template <class Block>
-  const Block& Parameters() const { return *std::get_if<Block>(parameters); }
+  const Block& Parameters() const {
+    return *std::get_if<Block>(parameters);
+  }
   // Whether its coverage is textured. That of opaque materials does not count.
   bool ReadsCoverage() const { return Reads(coverage_slot) && alpha_mode != AlphaMode::Opaque; }
   const BoundTexture& Texture(Slot slot) const { return textures[IndexOf(slot)]; }

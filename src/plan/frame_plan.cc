@@ -212,9 +212,8 @@ AlbedoTables TablesFor(const FramePlan& plan) {
     tables.anisotropic_dfg |= m.Has(kAnisotropy) && !is_filament;
     if (m.model != ShadingModel::Lecture) continue;
     const auto& p = m.Parameters<LectureParameters>();
-    tables.schlick_dfg[static_cast<std::size_t>(p.alpha)] |= plan.environment_light &&
-                                                             p.ambient == LectureAmbient::Image &&
-                                                             p.geometry == LectureGeometry::SchlickGgx;
+    tables.schlick_dfg[static_cast<std::size_t>(p.alpha)] |=
+        plan.environment_light && p.ambient == LectureAmbient::Image && p.geometry == LectureGeometry::SchlickGgx;
   }
   return tables;
 }
@@ -274,8 +273,8 @@ FramePlan MakeFramePlan(const Scene& scene, const PosedScene& posed, const Rende
   for (const SlotInfo& slot : kSlots) {
     const auto has_factor = [&](const FactorFeature& factor) { return factor.feature == slot.feature; };
     if (std::ranges::any_of(kFactorFeatures, has_factor)) continue;  // handled below
-    decide_of_materials(any([&](const FrameMaterial& m) { return ReadsTextureOf(m, slot.feature); }), slot.feature, std::string(slot.name) + "s",
-                        "no drawn material has one");
+    decide_of_materials(any([&](const FrameMaterial& m) { return ReadsTextureOf(m, slot.feature); }), slot.feature,
+                        std::string(slot.name) + "s", "no drawn material has one");
   }
   if (!any_has(kTangentSpaceBits))
     plan.disabled.emplace_back("tangents: no normal texture is read, and no surface is anisotropic");

@@ -25,7 +25,9 @@ struct ExactSource {
   bool Has(MaterialFeatures feature) const { return material.Frame().Has(feature); }
   const MaterialFactors& Factors() const { return material.Frame().factors; }
   template <class Block>
-  const Block& Parameters() const { return material.Frame().Parameters<Block>(); }
+  const Block& Parameters() const {
+    return material.Frame().Parameters<Block>();
+  }
   template <int kChannels>
   lanes::Vec4<double> Read(Slot slot) const {
     return ToLanes(material.Read(slot, point));

@@ -215,9 +215,11 @@ class ReferenceRun::Work {
       : settings_(WithoutWhatIsUnused(settings)),
         reference_(reference),
         start_(reference.clock()),
-        film_bytes_(std::uint64_t(settings.width) * std::uint64_t(settings.height),
-                    3 * sizeof(glm::dvec4) + sizeof(glm::dvec3), "the reference"),
+        film_bytes_(std::uint64_t(settings.width) * std::uint64_t(settings.height), 3 * sizeof(glm::dvec4),
+                    "the reference"),
         prepared_(scene, settings_, reference_, notes_),
+        through_bytes_(prepared_.ShowsThrough() ? std::uint64_t(settings.width) * std::uint64_t(settings.height) : 0,
+                       sizeof(glm::dvec3), "the reference"),
         order_(SpreadBlocks(settings.width, settings.height, reference.seed)) {
     film_.width = settings_.width;
     film_.height = settings_.height;
@@ -348,6 +350,7 @@ class ReferenceRun::Work {
   const MemoryLease film_bytes_;  // of the film and of squares_
   std::vector<std::string> notes_;
   const ReferenceScene prepared_;
+  const MemoryLease through_bytes_;  // of the film's `through`
   const std::vector<PixelBlock> order_;
   ReferenceFilm film_;
   std::vector<glm::dvec4> squares_;  // of deviations from the mean, summed

@@ -83,7 +83,9 @@ class Description {
     });
   }
   template <class Value>
-  void Fields(const Textured<Value>& t) { All(t.value, t.texture, t.channel); }
+  void Fields(const Textured<Value>& t) {
+    All(t.value, t.texture, t.channel);
+  }
   void Fields(const TangentSpaceNormal& n) { All(n.value, n.texture, n.scale); }
   void Fields(const Primitive& p) { All(p.topology, p.material, p.variant_materials); }  // the rest is geometry
   void Fields(const Mesh& m) { All(m.primitives, m.weights); }

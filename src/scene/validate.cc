@@ -8,8 +8,8 @@
 
 #include "facet/error.h"
 #include "facet/scene.h"
-#include "material/models/models.h"
 #include "material/model_parameters.h"
+#include "material/models/models.h"
 #include "material/parameters.h"
 
 namespace facet {
@@ -153,9 +153,9 @@ void CheckModelParameter(const Value& value, const RowOptions& options, const ch
 }
 
 void CheckMaterial(const Material& material, const Scene& scene, const Where& where) {
+  CheckEnum(material.model, kModels.back().model, where, "shading model");
   const bool has_own = HasParameters(material.model);
-  if (has_own != (material.parameters != nullptr) ||
-      (has_own && material.model != ModelOf(*material.parameters))) {
+  if (has_own != (material.parameters != nullptr) || (has_own && material.model != ModelOf(*material.parameters))) {
     Fail(where, "its parameters are not those of its shading model");
   }
   if (has_own) {

@@ -88,15 +88,15 @@ constexpr std::array kOptions = {
     RequestOption{"tonemap", kOutput, "CURVE", "neutral",
                   "none, reinhard, aces, agx, neutral, filmic,\ngeneric, gt7, agx-golden or agx-punchy [neutral]",
                   [](RenderRequest& r, Text where, Text text) {
-                    r.display.tone_map = static_cast<ToneMap>(
-                        ParseChoice(where, text, {kToneMapWords.begin(), kToneMapWords.end()}));
+                    r.display.tone_map =
+                        static_cast<ToneMap>(ParseChoice(where, text, {kToneMapWords.begin(), kToneMapWords.end()}));
                   }},
     RequestOption{"transfer", kOutput, "CURVE", "srgb", "srgb, or gamma: a power of 1 / 2.2 [srgb]",
                   [](RenderRequest& r, Text where, Text text) {
                     r.display.transfer = static_cast<Transfer>(ParseChoice(where, text, {"srgb", "gamma"}));
                   }},
     RequestOption{"white-balance", kOutput, "TEMPERATURE,TINT", "",
-                  "Of the light that is to be white, -1 to 1 each:\nblue to yellow, green to magenta [0,0]",
+                  "Turns the picture from blue to yellow, and from\ngreen to magenta, -1 to 1 each [0,0]",
                   [](RenderRequest& r, Text where, Text text) {
                     const std::vector<double> numbers = ParseNumbers(where, text, 2, {-1.0, 1.0});
                     r.display.grading.temperature = numbers[0], r.display.grading.tint = numbers[1];
@@ -309,8 +309,7 @@ std::filesystem::path PathOf(const std::filesystem::path& name, const NamedBy& n
 void ApplyMaterials(const RenderRequest& request, LoadedScene& loaded, const LoadOptions& options,
                     const NamedBy& named_by) {
   if (!request.materials) return;
-  const LoadReport read =
-      ApplyMaterialFile(loaded.scene, PathOf(*request.materials, named_by, "--materials"), options);
+  const LoadReport read = ApplyMaterialFile(loaded.scene, PathOf(*request.materials, named_by, "--materials"), options);
   loaded.report.file_bytes += read.file_bytes;
   loaded.report.warnings.insert(loaded.report.warnings.end(), read.warnings.begin(), read.warnings.end());
   loaded.report.files.insert(loaded.report.files.end(), read.files.begin(), read.files.end());

@@ -58,8 +58,8 @@ std::map<std::string, std::string> SpelledOut(const RenderRequest& request);
 // Throws Error(InvalidUsage) for options that contradict each other.
 void RefuseContradictions(const RenderRequest& request);
 
-// The origin of the names of the environment's image and of the material file. Empty: a user. Otherwise a file that names it, relative to the file's
-// folder and within that folder or `root` (see DataPath() of base/input_file.h).
+// The origin of the names of the environment's image and of the material file. Empty: a user. Otherwise a file that
+// names it, relative to the file's folder and within that folder or `root` (see DataPath() of base/input_file.h).
 struct NamedBy {
   std::filesystem::path file, root;
 };

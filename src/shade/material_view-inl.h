@@ -186,7 +186,9 @@ class MaterialView {
     HWY_INLINE bool Has(MaterialFeatures feature) const { return m.Has(feature); }
     HWY_INLINE const MaterialFactors& Factors() const { return m.factors; }
     template <class Block>
-    HWY_INLINE const Block& Parameters() const { return m.Parameters<Block>(); }
+    HWY_INLINE const Block& Parameters() const {
+      return m.Parameters<Block>();
+    }
     template <int kChannels>
     HWY_INLINE Vec4<T> Read(Slot slot) const {
       return textures.template Read<kChannels>(m.Texture(slot));

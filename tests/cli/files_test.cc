@@ -43,7 +43,7 @@ class FacetFiles : public testing::Test {
   FacetFiles() { WriteText(scene_, TinyScene()); }
 
   Outcome Draw(const std::string& in, const std::string& out, std::vector<std::string> more = {}) const {
-    more.insert(more.begin(), {"render", in, "-o", out, "--size", "8x8", "--samples", "1"});
+    more.insert(more.begin(), {"render", in, "-o", out, "--size", "8x8", "--samples", "1", "-q"});
     return RunFacet(more);
   }
   void ExpectRefused(const Outcome& run, int exit_code, const std::string& part) const {
@@ -89,8 +89,8 @@ TEST_F(FacetFiles, AReportIsWrittenOverNoFileOfTheScene) {
   WritePixel(folder_ / "texture.png", 100);
   fs::rename(folder_ / "texture.png", folder_ / "texture.json");
   const std::string before = ReadText(folder_ / "texture.json");
-  ExpectRefused(RunFacet({"report", scene_, "-o", folder_ / "texture.json", "--size", "8x8", "--budget", "1s"}), 2,
-                "is also an input");
+  ExpectRefused(RunFacet({"report", scene_, "-o", folder_ / "texture.json", "-q", "--size", "8x8", "--budget", "1s"}),
+                2, "is also an input");
   EXPECT_EQ(ReadText(folder_ / "texture.json"), before);
 }
 

@@ -127,7 +127,8 @@ TEST_F(FacetMemoryLimit, NamesTheSizeOfTexturesBeyondAllLimits) {
   ASSERT_NE(at, std::string::npos);
   scene.insert(at, R"("baseColorTexture": {"index": 0}, )");
   WriteText(tiny_, scene);
-  ExpectRefused(Draw(tiny_, whole_, {}), "a texture of 100000 x 100000 texels needs 74.5 GiB, and the limit is 32768");
+  ExpectRefused(Draw(tiny_, whole_, {"-q"}),
+                "a texture of 100000 x 100000 texels needs 74.5 GiB, and the limit is 32768");
 }
 
 // The stacks of threads are not what a limit is about.

@@ -79,8 +79,8 @@ TEST_F(FacetMaterials, WrongFilesAreOneLineWithThePlace) {
 TEST_F(FacetMaterials, StandInThePictureForVerify) {
   WriteText(folder_ / "look.json", R"({"materials": [{"match": "*", "model": "lecture"}]})");
   const std::string out = folder_ / "out.png";
-  const Outcome drawn = RunFacet(
-      {"render", in_, "-o", out, "--scene", "Lit", "--size", "32x32", "--materials", folder_ / "look.json"});
+  const Outcome drawn =
+      RunFacet({"render", in_, "-o", out, "--scene", "Lit", "--size", "32x32", "--materials", folder_ / "look.json"});
   ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
   EXPECT_EQ(RunFacet({"verify", out, in_}).exit_code, 0) << "the file of that name beside the scene";
   WriteText(folder_ / "other.json", R"({"materials": [{"match": "*", "model": "filament"}]})");

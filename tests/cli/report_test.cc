@@ -113,7 +113,8 @@ TEST_F(FacetReport, RenderSaysWhatIsOutOfReach) {
 
 TEST_F(FacetReport, StrictMakesWarningsFailures) {
   const std::string scene = folder_ / "scene.gltf";
-  WriteText(scene, TinyScene("\"extensionsUsed\": [\"ABC_unknown\"],"));
+  WriteText(scene,
+            TinyScene("\"extensionsUsed\": [\"ABC_unknown\", \"KHR_materials_unlit\", \"KHR_materials_variants\"],"));
   const std::vector<std::string> arguments = {"report", scene, "-o", stored_, "-q", "--size", "8x8", "--budget", "1s"};
   std::vector<std::string> strict = arguments;
   strict.push_back("--strict");

@@ -22,18 +22,17 @@ TEST(Grading, ChangesNothingByDefault) {
   ExpectNear(lane::Grade(factors, Light{0.1, 2.0, 30.0}), {0.1, 2.0, 30.0}, 0.0);
 }
 
-TEST(Grading, WhiteBalanceKeepsD65AndTurnsOtherLightWhite) {
+TEST(Grading, WhiteBalanceKeepsD65AndTurnsThePictureBlueYellowAndMagenta) {
   GradingFactors factors;
   SetWhiteBalance(0.0, 0.0, factors.white_balance);
   factors.balances_white = true;
   ExpectNear(lane::Grade(factors, Light{0.5, 0.5, 0.5}), {0.5, 0.5, 0.5}, 1e-6);
-  // A yellow light, to be made white, takes blue away from white light of the picture, and the reverse.
   SetWhiteBalance(-1.0, 0.0, factors.white_balance);
-  const Light warm = lane::Grade(factors, Light{0.5, 0.5, 0.5});
+  const Light bluish = lane::Grade(factors, Light{0.5, 0.5, 0.5});
   SetWhiteBalance(1.0, 0.0, factors.white_balance);
-  const Light cool = lane::Grade(factors, Light{0.5, 0.5, 0.5});
-  EXPECT_GT(cool.x / cool.z, 1.0);
-  EXPECT_LT(warm.x / warm.z, 1.0);
+  const Light yellowish = lane::Grade(factors, Light{0.5, 0.5, 0.5});
+  EXPECT_GT(yellowish.x / yellowish.z, 1.0);
+  EXPECT_LT(bluish.x / bluish.z, 1.0);
   SetWhiteBalance(0.0, 1.0, factors.white_balance);
   const Light tinted = lane::Grade(factors, Light{0.5, 0.5, 0.5});
   EXPECT_LT(tinted.y, 0.5);
@@ -42,8 +41,8 @@ TEST(Grading, WhiteBalanceKeepsD65AndTurnsOtherLightWhite) {
 TEST(Grading, ContrastKeepsMiddleGrey) {
   GradingFactors factors;
   factors.contrast = 1.5f;
-  ExpectNear(lane::Grade(factors, Light{0.18, 0.36, 0.09}), {0.18, 0.18 * std::pow(2.0, 1.5), 0.18 * std::pow(0.5, 1.5)},
-             1e-6);
+  ExpectNear(lane::Grade(factors, Light{0.18, 0.36, 0.09}),
+             {0.18, 0.18 * std::pow(2.0, 1.5), 0.18 * std::pow(0.5, 1.5)}, 1e-6);
 }
 
 TEST(Grading, SaturationMovesAlongTheLuminance) {

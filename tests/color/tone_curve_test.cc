@@ -83,10 +83,11 @@ TEST(ToneCurve, FloatIsCloseToDouble) {
       const lane::Vec3<double> exact = curve.in_double(light);
       const lane::Vec3<float> shown = curve.in_float(light_float);
       SCOPED_TRACE(curve.name);
-      // AgX' polynomial has coefficients up to 40; the step between two 8-bit codes is 3e-4 at least.
-      ASSERT_NEAR(shown.x, exact.x, 1e-5);
-      ASSERT_NEAR(shown.y, exact.y, 1e-5);
-      ASSERT_NEAR(shown.z, exact.z, 1e-5);
+      // AgX' polynomial has coefficients up to 40, and GT7's quantizer powers up to 79; the step between two 8-bit
+      // codes is 3e-4 at least.
+      ASSERT_NEAR(shown.x, exact.x, 4e-5);
+      ASSERT_NEAR(shown.y, exact.y, 4e-5);
+      ASSERT_NEAR(shown.z, exact.z, 4e-5);
     }
   }
 }

@@ -169,9 +169,6 @@ TEST(Explain, LayersHaveTheirWordsAndCosts) {
   EXPECT_GT(e.first.pose_bytes, 0u);
   // The table of albedos is the surface's, not the environment's.
   EXPECT_GE(CostOf(e, "anisotropy")->first_seconds, e.first.table_seconds);
-  settings.environment = {};
-  settings.environment.kind = EnvironmentSettings::Kind::None;
-  EXPECT_LT(Explain(scene, settings).first.environment_seconds, 1e-3);
 }
 
 // Of a texture of emission: the share that nothing reads. The same image as base colour is read everywhere.

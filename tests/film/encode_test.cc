@@ -118,8 +118,9 @@ TEST(EncodeFilm, AlphaIsStraight) {
 }
 
 TEST(EncodeFilm, BackgroundIsExactForEveryToneMapAndExposure) {
-  for (const ToneMap tone_map : {ToneMap::None, ToneMap::Reinhard, ToneMap::Aces, ToneMap::AgX, ToneMap::Neutral, ToneMap::Filmic,
-                                 ToneMap::Generic, ToneMap::Gt7, ToneMap::AgXGolden, ToneMap::AgXPunchy}) {
+  for (const ToneMap tone_map :
+       {ToneMap::None, ToneMap::Reinhard, ToneMap::Aces, ToneMap::AgX, ToneMap::Neutral, ToneMap::Filmic,
+        ToneMap::Generic, ToneMap::Gt7, ToneMap::AgXGolden, ToneMap::AgXPunchy}) {
     for (const double exposure : {-3.0, 0.0, 5.0}) {
       for (int code = 0; code < 256; ++code) {
         const float c = static_cast<float>(code) / 255.0f;
@@ -177,8 +178,9 @@ TEST(EncodeFilm, WhatIsNotFiniteIsEmpty) {
 
 TEST(EncodeFilm, SameBytesOnEveryTargetAndThreadCount) {
   const Film film = WildFilm(131, 127);  // two tasks, the last with a rest of a vector
-  for (const ToneMap tone_map : {ToneMap::None, ToneMap::Reinhard, ToneMap::Aces, ToneMap::AgX, ToneMap::Neutral, ToneMap::Filmic,
-                                 ToneMap::Generic, ToneMap::Gt7, ToneMap::AgXGolden, ToneMap::AgXPunchy}) {
+  for (const ToneMap tone_map :
+       {ToneMap::None, ToneMap::Reinhard, ToneMap::Aces, ToneMap::AgX, ToneMap::Neutral, ToneMap::Filmic,
+        ToneMap::Generic, ToneMap::Gt7, ToneMap::AgXGolden, ToneMap::AgXPunchy}) {
     for (const ChannelType type : {ChannelType::U8, ChannelType::U16, ChannelType::F32}) {
       for (const bool opaque : {false, true}) {
         auto settings = Display(tone_map, 0.37);
@@ -223,7 +225,8 @@ TEST(EncodeFilm, GammaIsAPowerAndKeepsTheBackground) {
   DisplaySettings display = Display(ToneMap::None, 0.0, glm::vec3(0.25f, 0.5f, 0.75f));
   display.transfer = Transfer::Gamma;
   const auto code = [](double light) { return static_cast<int>(std::lround(255.0 * std::pow(light, 1 / 2.2))); };
-  EXPECT_EQ(Bytes(OnePixel({0.5f, 0.18f, 0.01f, 1.0f}), display), (std::vector<int>{code(0.5), code(0.18), code(0.01)}));
+  EXPECT_EQ(Bytes(OnePixel({0.5f, 0.18f, 0.01f, 1.0f}), display),
+            (std::vector<int>{code(0.5), code(0.18), code(0.01)}));
   EXPECT_EQ(Bytes(OnePixel({0.0f, 0.0f, 0.0f, 0.0f}), display), (std::vector<int>{64, 128, 191}));
 }
 

@@ -77,7 +77,8 @@ TEST_F(MaterialFileTest, PatternsChooseMaterialsAndLaterEntriesWin) {
 
 TEST_F(MaterialFileTest, TexturesAreAddedOnceAndScaleWhatIsNotStated) {
   WritePicture("a.png");
-  const LoadReport report = Apply(R"({"materials": [{"match": "glass", "model": "filament", "parameters": {"metallic": 0.5},
+  const LoadReport report =
+      Apply(R"({"materials": [{"match": "glass", "model": "filament", "parameters": {"metallic": 0.5},
       "textures": {"baseColor": "a.png",
                    "metallic": {"image": "a.png", "channel": "b", "texCoord": 1, "scale": [2, 3], "wrap": "clamp"},
                    "roughness": {"image": "a.png", "channel": "g"},
@@ -128,10 +129,10 @@ TEST_F(MaterialFileTest, WrongFilesAreRefusedWithThePlaceAndWhatIsAccepted) {
   starts(ErrorOf(R"({"materials": {}})"), "look.json: /materials: is no list");
   starts(ErrorOf(R"({"materials": [{"model": "lecture"}]})"), "look.json: /materials/0: has no \"match\"");
   starts(ErrorOf(R"({"materials": [{"match": "chrome*", "model": "lecture"}]})"),
-         "look.json: /materials/0/match: no material's name matches \"chrome*\"");
+         "look.json: /materials/0/match: no material's name matches 'chrome*'");
   starts(ErrorOf(R"({"materials": [{"match": ["glass", 3], "model": "lecture"}]})"),
          "look.json: /materials/0/match/1: is no string");
-  starts(ErrorOfEntry(R"("model": "phong")"), "look.json: /materials/0/model: there is no model \"phong\"");
+  starts(ErrorOfEntry(R"("model": "phong")"), "look.json: /materials/0/model: there is no model 'phong'");
   starts(ErrorOfEntry(R"("model": "lecture", "parameters": {"shine": 1})"),
          "look.json: /materials/0/parameters/shine: unknown key");
   starts(ErrorOfEntry(R"("model": "lecture", "parameters": {"roughness": 1.5})"),
@@ -152,11 +153,11 @@ TEST_F(MaterialFileTest, WrongFilesAreRefusedWithThePlaceAndWhatIsAccepted) {
   starts(ErrorOfEntry(R"("model": "lecture", "textures": {"albedo": {"image": "a.png", "channel": "r"}})"),
          "look.json: /materials/0/textures/albedo/channel: unknown key");
   starts(ErrorOfEntry(R"("model": "lecture", "textures": {"roughness": {"image": "a.png", "channel": "x"}})"),
-         "look.json: /materials/0/textures/roughness/channel: \"x\" is unknown");
+         "look.json: /materials/0/textures/roughness/channel: 'x' is unknown");
   starts(ErrorOfEntry(R"("model": "lecture", "textures": {"roughness": {"image": "a.png", "texCoord": 0.5}})"),
          "look.json: /materials/0/textures/roughness/texCoord: is no UV set");
   starts(ErrorOfEntry(R"("model": "lecture", "alphaMode": "GLOW")"),
-         "look.json: /materials/0/alphaMode: \"GLOW\" is unknown");
+         "look.json: /materials/0/alphaMode: 'GLOW' is unknown");
   EXPECT_EQ(scene_.images.size(), 0u) << "a file that fails leaves the scene as it is";
   EXPECT_EQ(scene_.materials[0].model, ShadingModel::MetallicRoughness);
 }

@@ -177,6 +177,7 @@ Image Draw(const GltfFile& file, int width, int height, const std::function<void
   settings.samples = 1;
   settings.camera = facet::SceneCamera{0};
   settings.environment.kind = facet::EnvironmentSettings::Kind::None;
+  settings.specular_antialiasing = false;  // the closed forms are of points
   if (change) change(settings);
   return {facet::Render(loaded.scene, settings)};
 }

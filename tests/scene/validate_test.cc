@@ -100,8 +100,17 @@ INSTANTIATE_TEST_SUITE_P(
               [](Scene& s) { s.materials[0].iridescence_thickness_texture.texture = 7; }},
         Break{"layer_texture_uv_set", "material 0: anisotropy texture uses UV set -1",
               [](Scene& s) { s.materials[0].anisotropy_texture.tex_coord = -1; }},
-        Break{"model", "material 0: shading model 3 is unknown",
-              [](Scene& s) { s.materials[0].model = ShadingModel(3); }},
+        Break{"model", "material 0: shading model 6 is unknown",
+              [](Scene& s) { s.materials[0].model = ShadingModel(6); }},
+        Break{"noParameters", "material 0: its parameters are not those of its shading model",
+              [](Scene& s) { s.materials[0].model = ShadingModel::Lecture; }},
+        Break{"parameter", "material 0: roughness 2 is not in [0, 1]",
+              [](Scene& s) {
+                LectureParameters block;
+                block.roughness.value = 2.0f;
+                s.materials[0].model = ShadingModel::Lecture;
+                s.materials[0].parameters = std::make_shared<const ModelParameters>(block);
+              }},
         Break{"image", "texture 0: image 0", [](Scene& s) { s.textures[0].image = 0; }},
         Break{"source", "image 0: it has no source", [](Scene& s) { s.images.resize(1); }},
         Break{"joint", "skin 0: joint -1", [](Scene& s) { s.skins[0].joints[1] = -1; }},

@@ -47,7 +47,9 @@ struct Triangle {
     const FrameView view = MakeFrameView(CameraAtOrigin(orthographic), kSize, kSize);
     const FrameDrawable drawable = MakeFrameDrawable(view, placed);
     setup.resize(std::size_t(AttributeLayout::Stride(0)));
-    ScreenTriangle record{};
+    ScreenTriangle record;
+    record.drawable = record.primitive = 0;
+    record.back_facing = false;
     record.kind = ScreenTriangleKind::Triangle;
     const ScreenTriangle* const records[] = {&record};
     SetUpTriangleAttributes({&view, &drawable, &drawable.geometry, &material, 0, 0, records, 1, setup.data()});

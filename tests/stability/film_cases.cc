@@ -48,8 +48,9 @@ Measured MeasureExposure() {
       const double want = std::fmin(exact, double(std::numeric_limits<float>::max()));
       m.Error(std::fabs(double(file.As<float>()[4 * i]) - want) / std::fmax(want, 0x1p-126));
     }
-    for (const ToneMap tone_map : {ToneMap::None, ToneMap::Reinhard, ToneMap::Aces, ToneMap::AgX, ToneMap::Neutral, ToneMap::Filmic,
-                                   ToneMap::Generic, ToneMap::Gt7, ToneMap::AgXGolden, ToneMap::AgXPunchy}) {
+    for (const ToneMap tone_map :
+         {ToneMap::None, ToneMap::Reinhard, ToneMap::Aces, ToneMap::AgX, ToneMap::Neutral, ToneMap::Filmic,
+          ToneMap::Generic, ToneMap::Gt7, ToneMap::AgXGolden, ToneMap::AgXPunchy}) {
       settings.tone_map = tone_map;
       Film grey = film;
       for (glm::vec4& p : grey.pixels) p.g = p.b = p.r;

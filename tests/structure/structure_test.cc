@@ -88,7 +88,7 @@ const std::vector<std::string>& Rooms() {
   static const std::vector<std::string> rooms = [] {
     std::string text;
     for (const std::string& line : ReadLines(Root() / "src/CMakeLists.txt")) text += line + " ";
-    static const std::regex list(R"(foreach\(room IN ITEMS ([a-z ]+)\))");
+    static const std::regex list(R"(foreach\(room IN ITEMS ([a-z_ ]+)\))");
     std::smatch match;
     EXPECT_TRUE(std::regex_search(text, match, list));
     std::istringstream words(match[1].str() + " cli");
@@ -113,12 +113,14 @@ const std::map<std::string, std::string> kRoomOfHeader = {
     {"compare.h", "compare"},   {"check.h", "check"},
     {"verify.h", "check"},      {"explain.h", "explain"},
     {"report.h", "measure"},    {"facet.h", "cli"},
+    {"models.h", "material"},   {"catalog.h", "catalog"},
 };
 // Those of facet/shader/ are made of lanes; shader-inl.h alone is of all that a user's own shader is made of.
 std::string RoomOfHeader(const std::string& target) {
   const auto known = kRoomOfHeader.find(target.substr(std::string_view("facet/").size()));
   if (known != kRoomOfHeader.end()) return known->second;
   if (target == "facet/shader/shader-inl.h") return "shade";
+  if (target.starts_with("facet/models/")) return "material";
   return target.starts_with("facet/shader/") ? "simd" : "";
 }
 

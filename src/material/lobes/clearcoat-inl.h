@@ -36,7 +36,7 @@ struct ClearcoatLobe {
   HWY_INLINE ClearcoatLobe(const ClearcoatInputs<T>& in, T footprint_alpha2, const Vec3<T>& view,
                            const Lighting& lighting)
       : at{in.normal, view, Clamp(Dot(in.normal, view), T(kMinNDotV), T(1.0f))},
-        microfacets(WidenedRoughness(in.perceptual_roughness, footprint_alpha2)),
+        microfacets(DrawnRoughness(in.perceptual_roughness, footprint_alpha2)),
         factor(Clamp(in.factor, T(0.0f), T(1.0f))) {
     albedo = lighting.Dfg(at.n_dot_v, microfacets.perceptual_roughness);
     const SpecularAlbedo<T> average = lighting.DfgAverage(microfacets.perceptual_roughness);

@@ -40,6 +40,12 @@ HWY_INLINE T WidenedRoughness(T perceptual_roughness, T footprint_alpha2) {
   return Select(wider, Sqrt(Sqrt(alpha * alpha + footprint_alpha2)), perceptual_roughness);
 }
 
+// The same of a lobe that is at least as wide as those that are drawn (kMinPerceptualRoughness).
+template <class T>
+HWY_INLINE T DrawnRoughness(T perceptual_roughness, T footprint_alpha2) {
+  return WidenedRoughness(Max(perceptual_roughness, T(kMinPerceptualRoughness)), footprint_alpha2);
+}
+
 template <class T>
 struct Microfacets {
   T alpha{};                 // GGX's width

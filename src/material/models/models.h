@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 
+#include "facet/models/enterprise.h"
 #include "facet/scene.h"
 #include "material/slots.h"
 
@@ -49,7 +50,7 @@ inline constexpr auto kModels = std::to_array<ModelInfo>({
      "Guy and Agopian, 2018, Physically Based Rendering in Filament"},
     {ShadingModel::Enterprise, "enterprise", nullptr, 0, true,
      "Layers for products: a core of metal, plastic and glass under film, sheen, flakes and a clear coat.",
-     "facet is implementing DSPBR, the Dassault Systemes Enterprise PBR Shading Model (2025x)"},
+     kEnterpriseAcknowledgement},
 });
 
 #define FACET_MODEL_OF(Name) ShadingModel::Name,

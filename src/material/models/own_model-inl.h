@@ -70,8 +70,8 @@ HWY_INLINE Vec3<T> ReadParameter(const Source& from, const TangentSpaceNormal& p
   if (value == glm::vec3(0.0f, 0.0f, 1.0f) || !from.Has(kTangents)) return from.Normal();
   const Vec3<T> tangent = Xyz(from.Tangent());
   const Vec3<T> bitangent = Cross(from.InterpolatedNormal(), tangent) * from.Tangent().w;
-  return NormalizeOr(
-      tangent * T(value.x) + bitangent * T(value.y) + from.InterpolatedNormal() * T(value.z), from.Normal());
+  return NormalizeOr(tangent * T(value.x) + bitangent * T(value.y) + from.InterpolatedNormal() * T(value.z),
+                     from.Normal());
 }
 
 // The surface with all its light.

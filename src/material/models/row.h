@@ -20,8 +20,8 @@ struct RowOptions {
   bool is_data = false;                     // the texture of a colour is linear
   // What charts of this parameter state besides, so that it shows: a JSON object, as in material files.
   const char* chart = "{}";
-  bool is_coverage = false;                 // a number that takes the place of the base colour's alpha
-  Feature feature = Feature{};              // that disables the parameter: it has its default then
+  bool is_coverage = false;     // a number that takes the place of the base colour's alpha
+  Feature feature = Feature{};  // that disables the parameter: it has its default then
 };
 
 // A parameter. Value: bool, an enumeration, float, glm::vec3, Textured<...> or TangentSpaceNormal.
@@ -43,6 +43,8 @@ inline constexpr ParameterRange kAnyNumber{-std::numeric_limits<float>::infinity
 inline constexpr ParameterRange kNotNegative{0.0f, std::numeric_limits<float>::infinity()};
 
 template <class Value>
-inline constexpr bool kHasTexture = requires(Value value) { value.texture; };
+inline constexpr bool kHasTexture = requires(Value value) {
+  value.texture;
+};
 
 }  // namespace facet
