@@ -25,7 +25,7 @@ constexpr double kSecondsOfPreparation = 0.5;
 // The features of kFeatureWords that a material uses.
 FeatureSet UsedFeatures(const FrameMaterial& material) {
   FeatureSet used;
-  ForEachSlotOf(material.model, material.features, [&](const SlotInfo& slot) { used.Add(slot.feature); });
+  ForEachSlotOf(material.ModelOfSlots(), material.features, [&](const SlotInfo& slot) { used.Add(slot.feature); });
   for (const FactorFeature& factor : kFactorFeatures) {
     if (material.Has(factor.bit)) used.Add(factor.feature);
   }
@@ -70,7 +70,7 @@ std::vector<ExplainedTexture> DescribeTextures(const Scene& scene, const FramePl
     for (const ModelInfo& model : kModels) {
       for (const SlotInfo& slot : SlotsOf(model.model)) {
         const bool reads = std::any_of(plan.materials.begin(), plan.materials.end(), [&](const PlannedMaterial& m) {
-          return m.frame.model == model.model && m.textures[IndexOf(slot.slot)] == static_cast<int>(t);
+          return m.frame.ModelOfSlots() == model.model && m.textures[IndexOf(slot.slot)] == static_cast<int>(t);
         });
         std::vector<std::string>& roles = textures[t].roles;
         if (reads && std::ranges::find(roles, slot.word) == roles.end()) roles.emplace_back(slot.word);

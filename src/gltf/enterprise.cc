@@ -96,13 +96,14 @@ EnterpriseParameters FromGltf(const Material& m, const Place& place) {
   if (m.iridescence_factor != 0.0f && (micrometres > 1.0f || m.iridescence_thickness_texture)) {
     place.Warn("the model \"enterprise\" has films from 0 to 1 micrometre");
   }
-  p.ior = std::max(m.ior, 1.0f);
+  constexpr float kReflectsAll = 1e9f;  // an index of 0 means F0 = 1
+  p.ior = m.ior == 0.0f ? kReflectsAll : std::max(m.ior, 1.0f);
   p.thin_walled = m.thickness_factor == 0.0f;
   p.thickness = m.thickness_factor;
   if (m.thickness_texture) place.Warn("the model \"enterprise\" ignores the thickness texture");
   p.attenuation_color = m.attenuation_color;
   p.attenuation_distance = m.attenuation_distance;
-  p.abbe_number = m.dispersion > 0.0f ? 20.0f / m.dispersion : 0.0f;
+  p.abbe_number = m.dispersion > 0.0f ? RoundToFiniteFloat(20.0 / double{m.dispersion}) : 0.0f;
   // glTF states radiance.
   p.emission_color = {m.emissive_factor, m.emissive_texture};
   p.emission_value = m.emissive_factor == glm::vec3(0.0f) ? 0.0f : RoundToFiniteFloat(kPi * m.emissive_strength);
@@ -162,14 +163,17 @@ void ReadEnterprise(const Json& object, const Place& place, const ReadTextureInf
       ReadAs(group, where, "subsurfaceAsymmetry", &P::subsurface_anisotropy, p);
     });
   }
+  AlphaMode alpha_mode = material.alpha_mode;
   with("3DS_materials_enterprise_pbr", [&](const Json& group, const Place& where) {
+    const bool states_coverage = Find(group, "cutoutOpacity") != nullptr;
+    if (states_coverage && Find(object, "alphaMode") == nullptr) alpha_mode = AlphaMode::Blend;
     ForEachParameterOf(p, [&](const auto& row, auto& value) { ReadNamed(group, where, row, row.name, value); });
   });
   if (p.displacement != glm::vec3(0.0f)) place.Warn("displacement is not drawn");
 
   Material out;
   out.name = material.name;
-  out.alpha_mode = material.alpha_mode;
+  out.alpha_mode = alpha_mode;
   out.alpha_cutoff = material.alpha_cutoff;
   out.double_sided = material.double_sided;
   out.model = ShadingModel::Enterprise;

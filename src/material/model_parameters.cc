@@ -26,6 +26,7 @@ SlotInfo MakeSlot(const ModelParameter<Block, Value>& parameter, std::size_t num
 
 template <class Block>
 const std::vector<SlotInfo>& SlotsOfBlock() {
+  static_assert(HasSlotsForAll<Block>());
   static const std::vector<SlotInfo> slots = [] {
     std::vector<SlotInfo> made;
     std::size_t row = 0;
@@ -137,6 +138,9 @@ ModelParameters WithoutFeatures(const ModelParameters& parameters, FeatureSet di
           stated.Add(parameter.feature);
           if (disabled.Has(parameter.feature)) value = initial;
         });
+        if constexpr (requires { RemoveMore(block, disabled, stated, block); }) {
+          RemoveMore(std::get<Block>(parameters), disabled, stated, block);
+        }
       },
       kept);
   return kept;

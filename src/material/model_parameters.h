@@ -44,19 +44,21 @@ void ForEachStatedParameter(const ModelParameters& parameters, const Visit& visi
 // --- Texture slots --------------------------------------------------------------------------------------------------
 
 // The textures of a block have slots of their own: the first is that of the base colour; those in tangent space have
-// the numbers of glTF's in tangent space, so that they, too, are asked for by kTangentSpaceBits; the others follow in
-// the order of the rows. Returns kMaxSlots for a parameter without a texture.
+// the numbers of glTF's in tangent space, so that they, too, are asked for by kTangentSpaceBits, and the one named
+// "normal" has that of glTF's normal texture in every model, so that whoever does not know the model finds it; the
+// others follow in the order of the rows. Returns kMaxSlots for a parameter without a texture.
 template <class Block>
 constexpr std::size_t SlotNumber(std::size_t row) {
-  constexpr std::array kInTangentSpace = {Slot::Normal, Slot::ClearcoatNormal, Slot::Anisotropy};
+  constexpr std::array kBesidesNormal = {Slot::ClearcoatNormal, Slot::Anisotropy};
   constexpr std::array kReserved = {Slot::BaseColor, Slot::Normal, Slot::Emissive, Slot::ClearcoatNormal,
                                     Slot::Anisotropy};
   std::size_t r = 0, in_tangent_space = 0, other = 0, result = kMaxSlots;
   bool is_first = true;
-  ForEachRow(std::type_identity<Block>(), [&]<class Value>(const ModelParameter<Block, Value>&) {
+  ForEachRow(std::type_identity<Block>(), [&]<class Value>(const ModelParameter<Block, Value>& parameter) {
     std::size_t number = kMaxSlots;
     if constexpr (std::is_same_v<Value, TangentSpaceNormal>) {
-      number = IndexOf(kInTangentSpace.at(in_tangent_space++));
+      const bool is_normal = parameter.name == std::string_view("normal");
+      number = IndexOf(is_normal ? Slot::Normal : kBesidesNormal.at(in_tangent_space++));
     } else if constexpr (kHasTexture<Value>) {
       if (is_first) {
         number = IndexOf(Slot::BaseColor);
@@ -69,6 +71,22 @@ constexpr std::size_t SlotNumber(std::size_t row) {
     if (r++ == row) result = number;
   });
   return result;
+}
+
+// Whether each texture of a block has a slot of its own.
+template <class Block>
+consteval bool HasSlotsForAll() {
+  MaterialFeatures taken = 0;
+  std::size_t row = 0;
+  bool has = true;
+  ForEachRow(std::type_identity<Block>(), [&]<class Value>(const ModelParameter<Block, Value>&) {
+    const std::size_t number = SlotNumber<Block>(row++);
+    if constexpr (kHasTexture<Value>) {
+      has = has && number < kMaxSlots && (taken & MaterialFeatures{1} << number) == 0;
+      if (has) taken |= MaterialFeatures{1} << number;
+    }
+  });
+  return has;
 }
 
 template <class Value, class Block>

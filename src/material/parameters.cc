@@ -1,6 +1,8 @@
 #include "material/parameters.h"
 
 #include <algorithm>
+#include <string_view>
+#include <type_traits>
 
 #include "material/enterprise_factors.h"
 #include "material/model_parameters.h"
@@ -37,6 +39,12 @@ MaterialFactors FactorsOf(const Material& m) {
   if (m.parameters != nullptr) {
     Copy(BaseColorOf(*m.parameters), f.base_color);
     f.alpha_cutoff = m.alpha_cutoff;
+    // For MaterialView::Normal().
+    ForEachParameterOf(*m.parameters, [&f]<class Value>(const auto& parameter, const Value& value) {
+      if constexpr (std::is_same_v<Value, TangentSpaceNormal>) {
+        if (parameter.name == std::string_view("normal")) f.normal_scale = value.scale;
+      }
+    });
     if (const auto* enterprise = std::get_if<EnterpriseParameters>(m.parameters.get())) {
       SetEnterpriseFactors(*enterprise, f);
     }

@@ -10,6 +10,8 @@
 namespace facet {
 namespace {
 
+bool HasUv(const Primitive& mesh) { return !mesh.tex_coords.empty() && !mesh.tex_coords[0].empty(); }
+
 bool IsFiniteVector(const glm::dvec3& v) { return std::isfinite(v.x + v.y + v.z); }
 
 double MetresPerUnit(const Drawable& drawable) {
@@ -31,7 +33,7 @@ MeshMeasures MeasureMesh(const Drawable& drawable) {
   MeshMeasures measures;
   if (ClassOf(mesh.topology) != PrimitiveClass::Triangles || mesh.positions.empty()) return measures;
   const glm::dmat3 linear(drawable.world_from_mesh);
-  const bool has_uv = !mesh.tex_coords.empty() && !mesh.tex_coords[0].empty();
+  const bool has_uv = HasUv(mesh);
   // Near the mesh, so that the volumes of the pyramids over its triangles do not cancel.
   const glm::dvec3 origin(mesh.positions[0]);
   double volume6 = 0.0, area2 = 0.0, uv_area2 = 0.0;
@@ -64,7 +66,8 @@ EnterpriseMeasures MeasuresFor(const EnterpriseParameters& p, const Drawable& dr
     const double unit = MetresPerUnit(drawable);
     measures[1] = p.thickness != 0.0f ? p.thickness : unit > 0.0 ? RoundToFiniteFloat(mesh.mean_chord / unit) : 0.0f;
   }
-  if (has_flakes) {
+  // Without texture coordinates the flakes have no place, and their mean is shown.
+  if (has_flakes && HasUv(*drawable.geometry)) {
     measures[2] = p.texture_scale == 0.0f ? RoundToFiniteFloat(mesh.metres_per_uv) : p.texture_scale;
   }
   return measures;

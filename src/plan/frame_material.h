@@ -4,6 +4,7 @@
 #include "facet/models.h"
 #include "facet/scene.h"
 #include "material/features.h"
+#include "material/model_parameters.h"
 #include "material/parameters.h"
 #include "material/slots.h"
 #include "texture/texture.h"
@@ -34,6 +35,8 @@ struct FrameMaterial {
   int uv_sets[kMaxUvSlots] = {};  // TEXCOORD_n of each
   BoundTexture textures[kMaxSlots];
 
+  // The model whose slots its textures are in. What is Unlit because it has no surface keeps its own.
+  ShadingModel ModelOfSlots() const { return parameters != nullptr ? ModelOf(*parameters) : model; }
   bool Has(MaterialFeatures feature) const { return (features & feature) != 0; }
   bool Reads(Slot slot) const { return Has(BitOf(slot)); }
   template <class Block>

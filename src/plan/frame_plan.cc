@@ -7,6 +7,7 @@
 
 #include "facet/shader.h"
 #include "material/model_parameters.h"
+#include "material/models/models.h"
 #include "plan/enterprise_measures.h"
 #include "plan/unused_features.h"
 #include "scene/topology.h"
@@ -84,7 +85,7 @@ class Planner {
       }
     }
     if (f.Has(kFlakes)) f.first_uv_slot = UvSlotFor(f, 0);
-    ForEachSlotOf(f.model, f.features, [&](const SlotInfo& slot) { BindTexture(material, slot, planned); });
+    ForEachSlotOf(f.ModelOfSlots(), f.features, [&](const SlotInfo& slot) { BindTexture(material, slot, planned); });
     return planned;
   }
 
@@ -97,9 +98,11 @@ class Planner {
     if (material.parameters == nullptr) return;
     auto flat = std::make_shared<ModelParameters>(*material.parameters);
     std::visit(
-        [](auto& block) {
-          ForEachParameterOf(block, []<class Value>(const auto&, Value& value) {
-            if constexpr (std::is_same_v<Value, TangentSpaceNormal>) value = {};
+        []<class Block>(Block& block) {
+          const Block plain;
+          ForEachParameterOf(block, [&]<class Value>(const auto& parameter, Value& value) {
+            const bool along_tangents = std::is_same_v<Value, TangentSpaceNormal>;
+            if (along_tangents || parameter.feature == Feature::Anisotropy) value = plain.*parameter.member;
           });
         },
         *flat);
@@ -197,7 +200,8 @@ bool HasMorphTargets(const Scene& scene) {
 // Whether a texture is read that the feature disables.
 bool ReadsTextureOf(const FrameMaterial& material, Feature feature) {
   bool reads = false;
-  ForEachSlotOf(material.model, material.features, [&](const SlotInfo& slot) { reads |= slot.feature == feature; });
+  ForEachSlotOf(material.ModelOfSlots(), material.features,
+                [&](const SlotInfo& slot) { reads |= slot.feature == feature; });
   return reads;
 }
 
@@ -229,10 +233,11 @@ PoseSettings PoseOf(const RenderSettings& settings) {
   pose.time = settings.time;
   pose.variant = settings.variant;
   pose.generate_tangents = settings.tangents == TangentSource::Generated;
-  for (const SlotInfo& slot : kSlots) {
-    if (settings.without.Has(slot.feature)) pose.tangent_space_textures &= ~BitOf(slot.slot);
+  for (const ModelInfo& model : kModels) {
+    for (const SlotInfo& slot : SlotsOf(model.model)) {
+      if (slot.tangent_space && settings.without.Has(slot.feature)) pose.without.Add(slot.feature);
+    }
   }
-  if (settings.without.Has(Feature::Anisotropy)) pose.tangent_space_textures &= ~kAnisotropy;
   pose.skins = !settings.without.Has(Feature::Skins);
   pose.morph_targets = !settings.without.Has(Feature::MorphTargets);
   return pose;

@@ -57,7 +57,7 @@ std::vector<ExactMaterial> MakeExactMaterials(const Scene& scene, const FramePla
     const PlannedMaterial& planned = plan.materials[m];
     ExactMaterial& to = result[m];
     to.frame_ = planned.frame;
-    for (const SlotInfo& slot : SlotsOf(planned.frame.model)) {
+    for (const SlotInfo& slot : SlotsOf(planned.frame.ModelOfSlots())) {
       const int texture = planned.textures[IndexOf(slot.slot)];
       if (texture < 0) continue;
       const TextureRef& ref = TextureIn(scene.materials[std::size_t(planned.material)], slot);

@@ -182,7 +182,7 @@ std::vector<FrameMaterial> BindTextures(const FramePlan& plan, const FrameTextur
   bound.reserve(plan.materials.size());
   for (const PlannedMaterial& planned : plan.materials) {
     FrameMaterial& material = bound.emplace_back(planned.frame);
-    ForEachSlotOf(planned.frame.model, planned.frame.features, [&](const SlotInfo& info) {
+    ForEachSlotOf(planned.frame.ModelOfSlots(), planned.frame.features, [&](const SlotInfo& info) {
       const Slot slot = info.slot;
       const TextureData* const data = textures.entries[std::size_t(planned.textures[IndexOf(slot)])].data.get();
       material.textures[IndexOf(slot)].data = data;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <string>
 #include <utility>
 
@@ -73,15 +74,34 @@ int MaterialOf(const Primitive& primitive, int variant) {
   return primitive.material;
 }
 
-// The first texture that shading reads in tangent space, by the rule of the frame plan; null: none. Anisotropy without
-// a texture has the tangents of the first UV set.
-const TextureRef* TangentSpaceTexture(const Scene& scene, const Material& material, MaterialFeatures among) {
-  const MaterialFeatures read = FeaturesOf(material) & among;
-  for (const SlotInfo& slot : SlotsOf(material.model)) {
-    if (!slot.tangent_space || (read & BitOf(slot.slot)) == 0) continue;
-    const TextureRef& ref = TextureIn(material, slot);
-    if (scene.textures[std::size_t(ref.texture)].image >= 0) return &ref;
+// What shading reads of a material, without some features.
+MaterialFeatures FeaturesWithout(const Material& material, const FeatureSet& without) {
+  if (material.parameters != nullptr && without != FeatureSet()) {
+    FeatureSet stated;
+    Material left;
+    left.model = material.model;
+    left.parameters = std::make_shared<const ModelParameters>(WithoutFeatures(*material.parameters, without, stated));
+    return FeaturesOf(left);
   }
+  MaterialFeatures read = FeaturesOf(material);
+  for (const SlotInfo& slot : SlotsOf(material.model)) {
+    if (slot.tangent_space && without.Has(slot.feature)) read &= ~BitOf(slot.slot);
+  }
+  return without.Has(Feature::Anisotropy) ? read & ~kAnisotropy : read;
+}
+
+// The first texture that shading reads in tangent space, by the rule of the frame plan; null: none. First is the normal
+// texture: models do not agree on the order of their rows, but on its slot. Anisotropy without a texture has the
+// tangents of the first UV set.
+const TextureRef* TangentSpaceTexture(const Scene& scene, const Material& material, const FeatureSet& without) {
+  const MaterialFeatures read = FeaturesWithout(material, without);
+  const SlotInfo* first = nullptr;
+  for (const SlotInfo& slot : SlotsOf(material.model)) {
+    if (!slot.tangent_space || (read & BitOf(slot.slot)) == 0 || (first != nullptr && first->slot < slot.slot))
+      continue;
+    if (scene.textures[std::size_t(TextureIn(material, slot).texture)].image >= 0) first = &slot;
+  }
+  if (first != nullptr) return &TextureIn(material, *first);
   static const TextureRef first_uv_set;
   return (read & (kAnisotropy | kTangents)) != 0 ? &first_uv_set : nullptr;
 }
@@ -91,7 +111,7 @@ Shape MakeShape(const Scene& scene, const Primitive& primitive, int material, co
   shape.primitive = &primitive;
   if (material >= 0 && ClassOf(primitive.topology) == PrimitiveClass::Triangles) {
     const Material& used = scene.materials[std::size_t(material)];
-    const TextureRef* const texture = TangentSpaceTexture(scene, used, settings.tangent_space_textures);
+    const TextureRef* const texture = TangentSpaceTexture(scene, used, settings.without);
     shape.needs_tangents =
         texture != nullptr && (settings.generate_tangents || primitive.normals.empty() || primitive.tangents.empty());
     if (texture != nullptr) shape.normal_map = *texture;

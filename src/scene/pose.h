@@ -16,8 +16,8 @@ struct PoseSettings {
   double time = 0.0;   // seconds, clamped to the keys of each channel
   int variant = -1;    // -1: none
   bool generate_tangents = false;  // true: generate tangents even if the geometry has some
-  MaterialFeatures tangent_space_textures = kTangentSpaceBits;  // the others are treated as absent
-  bool skins = true, morph_targets = true;                      // false: treat the scene as if it had none of these
+  FeatureSet without;              // of materials, those that tangents depend on: treated as absent
+  bool skins = true, morph_targets = true;  // false: treat the scene as if it had none of these
 
   bool operator==(const PoseSettings&) const = default;
 };

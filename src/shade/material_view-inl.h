@@ -109,7 +109,9 @@ class TextureReader {
   const BoundTexture* empty_ = nullptr;  // the texture that ReadAll() found to be empty
 };
 
-// The material as shading models see it. T is Float (lanes), float or double.
+// The material as shading models see it. T is Float (lanes), float or double. The slots of a model that is not glTF's
+// mean something else than glTF's, but for those of the base colour and of the normal texture: it shows only these to
+// whoever does not Read() it by its own parameters.
 template <class T>
 class MaterialView {
  public:
@@ -119,7 +121,7 @@ class MaterialView {
 
   HWY_INLINE ShadingModel Model() const { return m_.model; }
   HWY_INLINE bool Lit() const { return m_.Has(kLit); }
-  HWY_INLINE bool Emits() const { return m_.Has(kEmission); }
+  HWY_INLINE bool Emits() const { return m_.parameters == nullptr && m_.Has(kEmission); }
 
   // Factor times texture times vertex colour: linear, straight alpha. The texture's alpha is ignored if the material is
   // opaque, as glTF demands; it may not even be stored.
@@ -144,6 +146,7 @@ class MaterialView {
   }
 
   HWY_INLINE Vec3<T> Emissive(const Surface<T>& s) const {
+    if (m_.parameters != nullptr) return {T(0.0f), T(0.0f), T(0.0f)};
     TextureReader<T> own(s);
     TextureReader<T>& textures = ReaderOf(s, own);
     return ReadEmission<T>(Source{m_, s, textures});
@@ -165,6 +168,7 @@ class MaterialView {
   HWY_INLINE MaterialInputs<T> Inputs(const Surface<T>& s) const {
     TextureReader<T> own(s);
     TextureReader<T>& textures = ReaderOf(s, own);
+    if (m_.parameters != nullptr) return InputsOfOther(s, textures);
     textures.ReadAll(m_);
     const Vec4<T> base = BaseColor(s, textures);
     const Source source{m_, s, textures};
@@ -205,6 +209,21 @@ class MaterialView {
 
   HWY_INLINE TextureReader<T>& ReaderOf(const Surface<T>& s, TextureReader<T>& own) const {
     return ahead_ != nullptr && ahead_->IsOf(s) ? *ahead_ : own;
+  }
+
+  // Of a model that is not glTF's: a rough dielectric of its base colour.
+  HWY_INLINE MaterialInputs<T> InputsOfOther(const Surface<T>& s, TextureReader<T>& textures) const {
+    const Vec4<T> base = BaseColor(s, textures);
+    MaterialInputs<T> in;
+    in.base_color = Xyz(base);
+    in.alpha_coverage = base.w;
+    in.metallic = T(0.0f);
+    in.perceptual_roughness = T(1.0f);
+    in.normal = MappedNormal<T>(Source{m_, s, textures}, Slot::Normal, m_.factors.normal_scale);
+    in.occlusion = T(1.0f);
+    in.footprint_alpha2 = s.footprint_alpha2;
+    in.lobes = kDiffuseLobe;
+    return in;
   }
 
   // The texel of the coverage.

@@ -1,12 +1,14 @@
 // Materials that state parameters of DSPBR: in extensions, in extras, and in the files of its validation suite.
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "facet/models.h"
 #include "gltf/enterprise.h"
 #include "gltf/extensions.h"
 #include "gltf_files.h"
+#include "material/parameters.h"
 
 namespace facet {
 namespace {
@@ -128,6 +130,32 @@ TEST(EnterpriseGltf, ParametersByTheirOwnNames) {
   EXPECT_EQ(p.ior, 1.0f);
   EXPECT_EQ(p.thin_film_ior, 2.5f);
   EXPECT_EQ(loaded.report.warnings.size(), 3u) << "two numbers out of range, and displacement";
+}
+
+TEST(EnterpriseGltf, StatedCoverageBlends) {
+  const auto mode = [](const std::string& members, const std::string& stated) {
+    const std::string group = R"("extensions":{"3DS_materials_enterprise_pbr":{)" + stated + "}}";
+    return LoadMaterial(members + group).scene.materials.at(0).alpha_mode;
+  };
+  EXPECT_EQ(mode("", R"("cutoutOpacity":0.5)"), AlphaMode::Blend);
+  EXPECT_EQ(mode(R"("alphaMode":"MASK",)", R"("cutoutOpacity":0.5)"), AlphaMode::Mask);
+  EXPECT_EQ(mode(R"("alphaMode":"OPAQUE",)", R"("cutoutOpacity":0.5)"), AlphaMode::Opaque);
+  EXPECT_EQ(mode("", R"("roughness":0.5)"), AlphaMode::Opaque);
+}
+
+TEST(EnterpriseGltf, ExtremesOfKhronosParameters) {
+  const auto load = [](const std::string& extension, const std::string& stated) {
+    return ParametersOf(
+        LoadMaterial(R"("extensions":{"3DS_materials_sss":{},")" + extension + R"(":{)" + stated + "}}"));
+  };
+  const EnterpriseParameters mirror = load("KHR_materials_ior", R"("ior":0)");
+  Material material;
+  material.model = ShadingModel::Enterprise;
+  material.parameters = std::make_shared<const ModelParameters>(mirror);
+  EXPECT_EQ(FactorsOf(material).dielectric_f0, 1.0f) << "as glTF's index of 0 has it";
+  EXPECT_EQ(load("KHR_materials_ior", R"("ior":1)").ior, 1.0f);
+  EXPECT_EQ(load("KHR_materials_dispersion", R"("dispersion":1e-38)").abbe_number, std::numeric_limits<float>::max());
+  EXPECT_EQ(load("KHR_materials_dispersion", R"("dispersion":0)").abbe_number, 0.0f);
 }
 
 TEST(EnterpriseGltf, TexturesScaleWhatTheyShould) {

@@ -5,6 +5,7 @@
 
 #include <string_view>
 
+#include "material/model_parameters.h"
 #include "material/slots.h"
 
 namespace facet {
@@ -139,6 +140,67 @@ TEST(MaterialFeatures, TexturesOfHiddenLayersAreNotRead) {
   m.metallic_factor = 1.0f;
   m.transmission_factor = m.diffuse_transmission_factor = m.thickness_factor = m.dispersion = 1.0f;
   EXPECT_EQ(FeaturesOf(m), kLit | film);
+}
+
+// --- Models with parameters of their own ----------------------------------------------------------------------------
+
+TEST(ModelSlots, TheNormalTextureIsWhereGltfHasIt) {
+  EXPECT_EQ(SlotOf(&LectureParameters::normal), Slot::Normal);
+  EXPECT_EQ(SlotOf(&FilamentParameters::normal), Slot::Normal);
+  EXPECT_EQ(SlotOf(&FilamentParameters::clear_coat_normal), Slot::ClearcoatNormal);
+  EXPECT_EQ(SlotOf(&EnterpriseParameters::normal), Slot::Normal);
+  EXPECT_EQ(SlotOf(&EnterpriseParameters::clearcoat_normal), Slot::ClearcoatNormal);
+  FilamentParameters p;
+  p.normal.scale = 0.25f;
+  p.clear_coat_normal.scale = 0.5f;
+  Material m;
+  m.model = ShadingModel::Filament;
+  m.parameters = std::make_shared<const ModelParameters>(p);
+  EXPECT_EQ(FactorsOf(m).normal_scale, 0.25f);
+}
+
+FilamentParameters Without(const FilamentParameters& p, Feature feature, FeatureSet& stated) {
+  return std::get<FilamentParameters>(WithoutFeatures(p, {feature}, stated));
+}
+
+// Subsurface lets light pass by default: the defaults in the place of what is disabled would add light.
+TEST(ModelsWithout, SubsurfaceLetsNoMoreLightPass) {
+  FilamentParameters p;
+  FeatureSet stated;
+  EXPECT_EQ(Without(p, Feature::DiffuseTransmission, stated).subsurface_color, p.subsurface_color) << "lit";
+  EXPECT_FALSE(stated.Has(Feature::DiffuseTransmission));
+  p.shading_model = FilamentParameters::Shading::Subsurface;
+  for (const glm::vec3 color : {glm::vec3(FilamentParameters::kNotStated), glm::vec3(0.25f)}) {
+    p.subsurface_color = {color, {.texture = 0}};
+    EXPECT_NE(FeaturesOf(p) & kDiffuseTransmission, 0u);
+    stated = {};
+    const FilamentParameters without = Without(p, Feature::DiffuseTransmission, stated);
+    EXPECT_EQ(without.subsurface_color, facet::Textured<glm::vec3>{glm::vec3(0.0f)});
+    EXPECT_TRUE(stated.Has(Feature::DiffuseTransmission));
+    EXPECT_EQ(FeaturesOf(without) & kDiffuseTransmission, 0u);
+    EXPECT_EQ(Without(p, Feature::Volume, stated).subsurface_color, p.subsurface_color);
+  }
+  for (const float thickness : {0.0f, 0.25f, 0.5f, 0.75f, 1.0f}) {
+    p.thickness = {thickness, {.texture = 0}};
+    const FilamentParameters without = Without(p, Feature::Volume, stated);
+    EXPECT_EQ(without.thickness, facet::Textured<float>{std::max(thickness, 0.5f)});
+    EXPECT_EQ(Without(p, Feature::Sheen, stated).thickness, p.thickness);
+  }
+}
+
+TEST(ModelsWithout, BlendingIsMoreThanTheAlphaMode) {
+  using Blending = FilamentParameters::Blending;
+  for (const Blending blending : {Blending::Transparent, Blending::Fade, Blending::Add, Blending::Multiply,
+                                  Blending::Screen, Blending::Masked, Blending::AlphaMode}) {
+    FilamentParameters p;
+    p.blending = blending;
+    FeatureSet stated;
+    const bool stays = blending == Blending::Masked || blending == Blending::AlphaMode;
+    const FilamentParameters without = Without(p, Feature::Blending, stated);
+    EXPECT_EQ(without.blending, stays ? blending : Blending::Opaque);
+    EXPECT_EQ(FeaturesOf(without) & kTransmission, 0u);
+    EXPECT_EQ(Without(p, Feature::Sheen, stated).blending, blending);
+  }
 }
 
 }  // namespace

@@ -168,6 +168,14 @@ TEST(LectureFresnel, Conductor) {
   }
 }
 
+// A medium that is like air reflects nothing, at grazing incidence, too.
+TEST(LectureFresnel, AConductorLikeAirReflectsNothing) {
+  for (double c = 0.0; c <= 1.0; c += 0.125) {
+    EXPECT_EQ(lanes::FresnelConductor(1.0, 0.0, c), 0.0) << c;
+    EXPECT_EQ(lanes::FresnelConductor(1.0f, 0.0f, float(c)), 0.0f) << c;
+  }
+}
+
 TEST(LectureFresnel, KsAndKd) {
   LectureParameters p;
   p.albedo.value = {0.8f, 0.5f, 0.2f, 1.0f};

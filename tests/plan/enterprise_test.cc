@@ -78,6 +78,66 @@ TEST(EnterprisePlan, FlakesKnowTheScaleOfTheTexture) {
   EXPECT_EQ(PlannedAt(plan, 1).texture_scale, 0.0f);
   EXPECT_EQ(plan.materials[0].frame.uv_slots, 1);
   EXPECT_TRUE(plan.materials[0].frame.Has(kFlakes));
+  // A stated scale needs texture coordinates to scale.
+  p.texture_scale = 0.25f;
+  scene.materials[std::size_t(material)] = MaterialOf(p);
+  const FramePlan stated = PlanOf(scene);
+  EXPECT_EQ(PlannedAt(stated, 0).texture_scale, 0.25f);
+  EXPECT_EQ(PlannedAt(stated, 1).texture_scale, 0.0f);
+}
+
+// Lines without normals are unlit, but their coverage is what it is on surfaces: a number, of one channel.
+TEST(EnterprisePlan, CoverageOfLinesIsANumber) {
+  EnterpriseParameters p;
+  Scene scene;
+  const int texture = AddTexture(scene, MakeImage(2, 2, [](int, int) { return glm::u8vec4(128); }));
+  p.cutout_opacity.texture.texture = p.roughness.texture.texture = texture;
+  p.roughness.value = 0.5f;
+  p.cutout_opacity.channel = 1;
+  Material material = MaterialOf(p);
+  material.alpha_mode = AlphaMode::Blend;
+  Primitive lines = Rectangle(0.0f, 0.0f, 1.0f, 1.0f);
+  lines.topology = Topology::LineStrip;
+  lines.indices.clear();
+  lines.normals.clear();
+  Add(scene, lines, AddMaterial(scene, material));
+  const FramePlan plan = PlanOf(scene);
+  const FrameMaterial& planned = plan.materials[0].frame;
+  EXPECT_EQ(planned.model, ShadingModel::Unlit);
+  EXPECT_TRUE(planned.ReadsCoverage());
+  ASSERT_EQ(plan.textures.size(), 1u) << "what needs light is not read";
+  EXPECT_EQ(plan.textures[0].role, TextureRole::Data);
+  EXPECT_EQ(plan.textures[0].channels, kG);
+}
+
+// Lines get no tangents from anyone.
+TEST(EnterprisePlan, LinesWithoutTangentsAreNotAnisotropic) {
+  EnterpriseParameters p;
+  p.anisotropy.value = 0.5f;
+  FilamentParameters brushed;
+  brushed.anisotropy.value = 0.5f;
+  Material filament;
+  filament.model = ShadingModel::Filament;
+  filament.parameters = std::make_shared<const ModelParameters>(brushed);
+  for (const Material& material : {MaterialOf(p), filament}) {
+    for (const bool has_tangents : {false, true}) {
+      Scene scene;
+      Primitive lines = Rectangle(0.0f, 0.0f, 1.0f, 1.0f);
+      lines.topology = Topology::LineStrip;
+      lines.indices.clear();
+      if (has_tangents) lines.tangents.assign(lines.positions.size(), glm::vec4(1, 0, 0, 1));
+      if (!has_tangents) lines.tangents.clear();
+      Add(scene, lines, AddMaterial(scene, material));
+      EXPECT_EQ(PlanOf(scene).materials[0].frame.Has(kAnisotropy | kTangents), has_tangents);
+    }
+  }
+}
+
+// What the features are called decides, not the numbers that slots have in glTF's models.
+TEST(EnterprisePlan, TangentsDependOnFeatures) {
+  RenderSettings settings;
+  settings.without = {Feature::Occlusion, Feature::Clearcoat, Feature::Sheen};
+  EXPECT_EQ(PoseOf(settings).without, (FeatureSet{Feature::Occlusion, Feature::Clearcoat}));
 }
 
 // What is not used is not measured, so that all meshes share a plan.

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "facet/error.h"
+#include "facet/models.h"
 #include "material/slots.h"
 #include "scene/topology.h"
 #include "scene_helpers.h"
@@ -420,7 +421,7 @@ TEST(PoseForAnisotropy, TheFilesTangentsStay) {
 TEST(PoseForAnisotropy, NothingIsMadeWhereNothingReadsIt) {
   const Scene scene = AnisotropicTriangle();
   PoseSettings without;
-  without.tangent_space_textures &= ~kAnisotropy;
+  without.without.Add(Feature::Anisotropy);
   EXPECT_TRUE(PosedTangents(scene, without).empty());
   const auto expect_none = [](Scene changed, const char* why) {
     const PosedScene posed = Pose(changed, {});
@@ -441,6 +442,42 @@ TEST(PoseForAnisotropy, NothingIsMadeWhereNothingReadsIt) {
         topology == Topology::Lines ? std::vector<std::uint32_t>{0, 1} : std::vector<std::uint32_t>{};
     expect_none(changed, "points and lines have none");
   }
+}
+
+// Whatever the order of a model's rows, the normal texture decides, and each is left out by its own feature.
+TEST(PoseForAnisotropy, OtherModelsHaveTheSameRule) {
+  Scene scene = AnisotropicTriangle();
+  Only(scene).tex_coords = {{{0, 0}, {1, 0}, {0, 1}}, {{0, 0}, {0, 1}, {-1, 0}}};
+  AddNormalMap(scene);
+  TextureRef second{.texture = 0};
+  second.tex_coord = 1;
+  FilamentParameters p;
+  p.clear_coat.value = 1.0f;
+  p.clear_coat_normal.texture.texture = 0;
+  p.normal.texture = second;
+  const auto tangents = [&](const FilamentParameters& parameters, std::initializer_list<Feature> without) {
+    scene.materials[0] = Material();
+    scene.materials[0].model = ShadingModel::Filament;
+    scene.materials[0].parameters = std::make_shared<const ModelParameters>(parameters);
+    PoseSettings settings;
+    settings.without = without;
+    return PosedTangents(scene, settings);
+  };
+  const auto along = [](const std::vector<glm::vec4>& all, const glm::dvec3& direction) {
+    return all.size() == 3 && Distance(glm::dvec3(all[0]), direction) < 1e-6;
+  };
+  EXPECT_TRUE(along(tangents(p, {}), {0, -1, 0})) << "by the second set";
+  EXPECT_TRUE(along(tangents(p, {Feature::Clearcoat}), {0, -1, 0}));
+  EXPECT_TRUE(along(tangents(p, {Feature::NormalTexture}), {1, 0, 0})) << "by that of the coat";
+  EXPECT_TRUE(tangents(p, {Feature::NormalTexture, Feature::Clearcoat}).empty());
+  FilamentParameters bent;
+  bent.bent_normal.texture = second;
+  EXPECT_TRUE(along(tangents(bent, {Feature::Anisotropy}), {0, -1, 0}));
+  EXPECT_TRUE(tangents(bent, {Feature::Occlusion}).empty());
+  FilamentParameters brushed;
+  brushed.anisotropy.value = 0.5f;
+  EXPECT_TRUE(along(tangents(brushed, {Feature::Clearcoat}), {1, 0, 0}));
+  EXPECT_TRUE(tangents(brushed, {Feature::Anisotropy}).empty());
 }
 
 TEST(PoseForAnisotropy, DeformedSurfacesTakeTheirTangentsAlong) {

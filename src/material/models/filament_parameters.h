@@ -1,6 +1,7 @@
 // The parameters of the model "filament": one row each.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <type_traits>
@@ -116,6 +117,13 @@ inline bool HasFibres(const FilamentParameters& p) {
   return layered && p.sheen_color.value.x >= 0.0f && p.sheen_color.value != glm::vec3(0.0f);
 }
 
+// Whether light passes through it diffusely. Subsurface does by default, cloth where a colour is stated.
+inline bool PassesDiffusely(const FilamentParameters& p) {
+  using Shading = FilamentParameters::Shading;
+  if (p.shading_model == Shading::Subsurface) return p.subsurface_color.value != glm::vec3(0.0f);
+  return p.shading_model == Shading::Cloth && p.subsurface_color.value.x >= 0.0f;
+}
+
 // The features that the parameters make visible, besides the textures.
 inline MaterialFeatures FeaturesOf(const FilamentParameters& p) {
   using Shading = FilamentParameters::Shading;
@@ -127,7 +135,7 @@ inline MaterialFeatures FeaturesOf(const FilamentParameters& p) {
   set(IsSeenThrough(p), kTransmission);
   const bool layered = p.shading_model == Shading::Lit || p.shading_model == Shading::SpecularGlossiness;
   set(HasFibres(p), kSheen);
-  set(p.subsurface_color.value.x >= 0.0f, kDiffuseTransmission);
+  set(PassesDiffusely(p), kDiffuseTransmission);
   if (!layered) return features;
   set(p.clear_coat.value != 0.0f, kClearcoat);
   set(p.anisotropy.value != 0.0f, kAnisotropy | kTangents);
@@ -152,6 +160,21 @@ inline std::optional<AlphaMode> AlphaModeOf(const FilamentParameters& p) {
     case Blending::Opaque: return AlphaMode::Opaque;
     case Blending::Masked: return AlphaMode::Mask;
     default: return AlphaMode::Blend;
+  }
+}
+
+// What WithoutFeatures() does besides giving parameters their defaults: disabling a feature takes light away, but
+// subsurface lets light pass by default, and blending does not depend on the alpha mode alone.
+inline void RemoveMore(const FilamentParameters& stated_ones, const FeatureSet& disabled, FeatureSet& stated,
+                       FilamentParameters& kept) {
+  if (stated_ones.shading_model == FilamentParameters::Shading::Subsurface) {
+    if (PassesDiffusely(stated_ones)) stated.Add(Feature::DiffuseTransmission);
+    if (disabled.Has(Feature::DiffuseTransmission)) kept.subsurface_color = {glm::vec3(0.0f)};
+    // The thicker, the less light passes.
+    kept.thickness.value = std::max(kept.thickness.value, stated_ones.thickness.value);
+  }
+  if (disabled.Has(Feature::Blending) && AlphaModeOf(stated_ones) == AlphaMode::Blend) {
+    kept.blending = FilamentParameters::Blending::Opaque;
   }
 }
 

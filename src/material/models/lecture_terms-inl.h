@@ -110,10 +110,12 @@ HWY_INLINE T FresnelConductor(T eta, T k, T v_dot_h) {
   const T norm = Sqrt(real * real + T(4.0f) * eta2 * k2);  // p^2 + q^2
   const T p = Sqrt(Max((norm + real) * T(0.5f), T(0.0f)));
   const T sum = norm + c2, cross = T(2.0f) * p * v_dot_h;
-  // The differences are squares of absolute values: not negative, but for rounding.
-  const T perpendicular = Max(sum - cross, T(0.0f)) / (sum + cross);
+  // The differences are squares of absolute values: not negative, but for rounding. The sums are 0 only where nothing
+  // is reflected: at grazing incidence on a medium that is like air.
+  const T least(1e-30f);
+  const T perpendicular = Max(sum - cross, T(0.0f)) / Max(sum + cross, least);
   const T sum_p = c2 * norm + s2 * s2, cross_p = cross * s2;
-  const T parallel = perpendicular * (Max(sum_p - cross_p, T(0.0f)) / (sum_p + cross_p));
+  const T parallel = perpendicular * (Max(sum_p - cross_p, T(0.0f)) / Max(sum_p + cross_p, least));
   return T(0.5f) * (perpendicular + parallel);
 }
 
