@@ -24,7 +24,9 @@ struct Step {
 };
 
 // From the lowest value to the highest; where there is no highest, in doubling steps.
-std::vector<float> Values(ParameterRange range) {
+std::vector<float> Values(const RowOptions& row) {
+  const ParameterRange& range = row.range;
+  const float unit = std::string_view(row.unit) == "nm" ? 200.0f : 1.0f;  // films show from half a wavelength on
   std::vector<float> values;
   if (!std::isnan(range.exception) && std::isfinite(range.exception)) values.push_back(range.exception);
   const float low = std::isfinite(range.low) ? range.low : -1.0f;
@@ -32,7 +34,7 @@ std::vector<float> Values(ParameterRange range) {
     const float share = float(i) / (kSteps - 1);
     values.push_back(std::isfinite(range.high) || !std::isfinite(range.low)
                          ? low + share * ((std::isfinite(range.high) ? range.high : 1.0f) - low)
-                         : low + (i == 0 ? 0.0f : std::ldexp(0.25f, i - 1)));
+                         : low + (i == 0 ? 0.0f : unit * std::ldexp(0.25f, i - 1)));
   }
   return values;
 }
@@ -77,7 +79,7 @@ class Stepper {
     } else if constexpr (std::is_same_v<Value, bool>) {
       add("false", false), add("true", true);
     } else {
-      for (const float number : Values(row.range)) {
+      for (const float number : Values(row)) {
         if constexpr (std::is_same_v<Value, float>) {
           add(ShortNumber(double{number}, 3), number);
         } else if (IsDirection(initial)) {

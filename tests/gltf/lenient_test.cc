@@ -507,7 +507,9 @@ TEST(Lenient, TexturesWithoutCoordinatesAreNamed) {
       }
       const bool all = std::includes(named.begin(), named.end(), c.textures.begin(), c.textures.end());
       EXPECT_TRUE(missing ? all : named.empty()) << c.material;
-      if (c.material == 1) EXPECT_TRUE(named.empty()) << "it reads none";
+      if (c.material == 1) {
+        EXPECT_TRUE(named.empty()) << "it reads none";
+      }
     }
   }
 }
