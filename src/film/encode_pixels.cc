@@ -22,18 +22,26 @@ HWY_BEFORE_NAMESPACE();
 namespace facet {
 namespace HWY_NAMESPACE {
 
+// Curves that few ask for are not inlined, nor is grading: the kernel would compile for minutes.
+HWY_NOINLINE Vec3<Float> ApplyRareToneMap(ToneMap tone_map, Vec3<Float> light) {
+  switch (tone_map) {
+    case ToneMap::Filmic: return FilmicCurve(light);
+    case ToneMap::Generic: return GenericCurve(light);
+    case ToneMap::Gt7: return Gt7Curve(light);
+    case ToneMap::AgXGolden: return AgXCurve(light, kAgXGolden);
+    default: return AgXCurve(light, kAgXPunchy);
+  }
+}
+HWY_NOINLINE Vec3<Float> ApplyGrading(const GradingFactors& grading, Vec3<Float> light) { return Grade(grading, light); }
+
 HWY_INLINE Vec3<Float> ApplyToneMap(ToneMap tone_map, Vec3<Float> light) {
   switch (tone_map) {
     case ToneMap::Reinhard: return ReinhardCurve(light);
     case ToneMap::Aces: return AcesCurve(light);
     case ToneMap::AgX: return AgXCurve(light);
     case ToneMap::Neutral: return NeutralCurve(light);
-    case ToneMap::Filmic: return FilmicCurve(light);
-    case ToneMap::Generic: return GenericCurve(light);
-    case ToneMap::Gt7: return Gt7Curve(light);
-    case ToneMap::AgXGolden: return AgXCurve(light, kAgXGolden);
-    case ToneMap::AgXPunchy: return AgXCurve(light, kAgXPunchy);
     case ToneMap::None: break;
+    default: return ApplyRareToneMap(tone_map, light);
   }
   return ClampCurve(light);
 }
@@ -82,7 +90,7 @@ struct Codes {
 HWY_INLINE Codes EncodeCodes(const EncodeTask& task, const Packet& packet) {
   const Vec4<Float> light = ExposedLight(task, packet.pixels);
   Vec3<Float> graded = Xyz(light);
-  if (task.grades) graded = Grade(task.grading, graded);
+  if (task.grades) graded = ApplyGrading(task.grading, graded);
   Vec3<Float> shown = ApplyToneMap(task.tone_map, graded);
   if (task.opaque) shown = InFront(task, packet, shown, light.w);
   if (task.transfer == Transfer::Gamma) {
