@@ -11,12 +11,12 @@
 namespace facet {
 
 struct PoseSettings {
-  int scene = -1;      // -1: the default one
-  int animation = -1;  // -1: rest pose
-  double time = 0.0;   // seconds, clamped to the keys of each channel
-  int variant = -1;    // -1: none
-  bool generate_tangents = false;  // true: generate tangents even if the geometry has some
-  FeatureSet without;              // of materials, those that tangents depend on: treated as absent
+  int scene = -1;                           // -1: the default one
+  int animation = -1;                       // -1: rest pose
+  double time = 0.0;                        // seconds, clamped to the keys of each channel
+  int variant = -1;                         // -1: none
+  bool generate_tangents = false;           // true: generate tangents even if the geometry has some
+  FeatureSet without = {};                  // of materials, those that tangents depend on: treated as absent
   bool skins = true, morph_targets = true;  // false: treat the scene as if it had none of these
 
   bool operator==(const PoseSettings&) const = default;
