@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "facet/error.h"
+#include "facet/models.h"
 #include "scene_helpers.h"
 
 namespace facet {
