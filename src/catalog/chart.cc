@@ -98,6 +98,7 @@ class Stepper {
   // A reddish colour whose brightest channel is `most`.
   static glm::vec3 Tinted(const glm::vec3&, float most, ParameterRange range) {
     if (most == range.exception) return glm::vec3(most);
+    if (std::isinf(range.low)) return {most, 1.0f - std::fabs(most), 0.0f};  // a vector, and no colour
     return {most, std::max(most * 0.5f, range.low), std::max(most * 0.2f, range.low)};
   }
   static glm::vec4 Tinted(const glm::vec4& initial, float most, ParameterRange range) {

@@ -83,11 +83,12 @@ TEST(ToneCurve, FloatIsCloseToDouble) {
       const lane::Vec3<double> exact = curve.in_double(light);
       const lane::Vec3<float> shown = curve.in_float(light_float);
       SCOPED_TRACE(curve.name);
-      // AgX' polynomial has coefficients up to 40, and GT7's quantizer powers up to 79; the step between two 8-bit
-      // codes is 3e-4 at least.
-      ASSERT_NEAR(shown.x, exact.x, 4e-5);
-      ASSERT_NEAR(shown.y, exact.y, 4e-5);
-      ASSERT_NEAR(shown.z, exact.z, 4e-5);
+      // AgX' polynomial has coefficients up to 40; the step between two 8-bit codes is 3e-4 at least. GT7 mixes by codes
+      // of a quantizer with a power of 79, which multiplies rounding errors as much.
+      const double tolerance = std::string_view(curve.name) == "GT7" ? 2e-4 : 1e-5;
+      ASSERT_NEAR(shown.x, exact.x, tolerance);
+      ASSERT_NEAR(shown.y, exact.y, tolerance);
+      ASSERT_NEAR(shown.z, exact.z, tolerance);
     }
   }
 }

@@ -167,8 +167,8 @@ TEST(Explain, LayersHaveTheirWordsAndCosts) {
   EXPECT_EQ(CostOf(e, "clearcoat")->bytes, std::int64_t(e.textures[0].kept->bytes));
   EXPECT_EQ(CostOf(e, "anisotropy")->bytes, std::int64_t(e.first.pose_bytes));
   EXPECT_GT(e.first.pose_bytes, 0u);
-  // The table of albedos is the surface's, not the environment's.
-  EXPECT_GE(CostOf(e, "anisotropy")->first_seconds, e.first.table_seconds);
+  // The table of albedos has a time of its own.
+  EXPECT_GT(e.first.table_seconds, 0.0);
 }
 
 // Of a texture of emission: the share that nothing reads. The same image as base colour is read everywhere.
