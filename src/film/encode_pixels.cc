@@ -32,7 +32,9 @@ HWY_NOINLINE Vec3<Float> ApplyRareToneMap(ToneMap tone_map, Vec3<Float> light) {
     default: return AgXCurve(light, kAgXPunchy);
   }
 }
-HWY_NOINLINE Vec3<Float> ApplyGrading(const GradingFactors& grading, Vec3<Float> light) { return Grade(grading, light); }
+HWY_NOINLINE Vec3<Float> ApplyGrading(const GradingFactors& grading, Vec3<Float> light) {
+  return Grade(grading, light);
+}
 
 HWY_INLINE Vec3<Float> ApplyToneMap(ToneMap tone_map, Vec3<Float> light) {
   switch (tone_map) {
@@ -40,10 +42,8 @@ HWY_INLINE Vec3<Float> ApplyToneMap(ToneMap tone_map, Vec3<Float> light) {
     case ToneMap::Aces: return AcesCurve(light);
     case ToneMap::AgX: return AgXCurve(light);
     case ToneMap::Neutral: return NeutralCurve(light);
-    case ToneMap::None: break;
-    default: return ApplyRareToneMap(tone_map, light);
+    default: return ClampCurve(light);
   }
-  return ClampCurve(light);
 }
 
 // Straight (not premultiplied), exposed light; alpha in [0, 1]. Pixels that are not finite are empty.
@@ -68,11 +68,18 @@ struct Packet {
   const float* through;  // may be null
 };
 
+// Whether a task needs more than a curve that many ask for and a background behind all channels alike. Others have a
+// kernel of their own.
+bool IsRare(const EncodeTask& task) {
+  return task.grades || task.transfer != Transfer::Srgb || task.tone_map > ToneMap::Neutral || task.through != nullptr;
+}
+
 // Composites light over the background. Behind an empty pixel a background of exactly 1 stays exactly 1.
+template <bool kIsRare>
 HWY_INLINE Vec3<Float> InFront(const EncodeTask& task, const Packet& packet, Vec3<Float> light, Float alpha) {
   const Float one(1.0f), by_alpha = one - alpha;
   Vec3<Float> through{by_alpha, by_alpha, by_alpha};
-  if (packet.through != nullptr) {
+  if (kIsRare && packet.through != nullptr) {
     Float r, g, b;
     hn::LoadInterleaved3(FloatTag(), packet.through, r.raw, g.raw, b.raw);
     through =
@@ -87,13 +94,16 @@ struct Codes {
   Int r, g, b, a;
 };
 
+// `kIsRare`: IsRare(task).
+template <bool kIsRare>
 HWY_INLINE Codes EncodeCodes(const EncodeTask& task, const Packet& packet) {
   const Vec4<Float> light = ExposedLight(task, packet.pixels);
-  Vec3<Float> graded = Xyz(light);
-  if (task.grades) graded = ApplyGrading(task.grading, graded);
-  Vec3<Float> shown = ApplyToneMap(task.tone_map, graded);
-  if (task.opaque) shown = InFront(task, packet, shown, light.w);
-  if (task.transfer == Transfer::Gamma) {
+  Vec3<Float> shown = Xyz(light);
+  if (kIsRare && task.grades) shown = ApplyGrading(task.grading, shown);
+  shown = kIsRare && task.tone_map > ToneMap::Neutral ? ApplyRareToneMap(task.tone_map, shown)
+                                                      : ApplyToneMap(task.tone_map, shown);
+  if (task.opaque) shown = InFront<kIsRare>(task, packet, shown, light.w);
+  if (kIsRare && task.transfer == Transfer::Gamma) {
     // The light whose sRGB code is that of the power.
     const auto as_srgb = [](Float c) HWY_ATTR {
       return SrgbToLinear(Pow(Clamp(c, Float(0.0f), Float(1.0f)), Float(1.0f / 2.2f)));
@@ -149,11 +159,12 @@ HWY_INLINE void StoreWords(const Codes& codes, bool opaque, std::size_t room, st
   StoreEach<std::uint16_t>(values, opaque, room, out);
 }
 
+template <bool kIsRare>
 HWY_INLINE void EncodeLinear(const EncodeTask& task, const Packet& packet, std::size_t room, std::byte* out) {
   const Vec4<Float> light = ExposedLight(task, packet.pixels);
   constexpr float kMax = std::numeric_limits<float>::max();
   Vec3<Float> shown = Clamp(Xyz(light), Float(-kMax), Float(kMax));
-  if (task.opaque) shown = Clamp(InFront(task, packet, shown, light.w), Float(-kMax), Float(kMax));
+  if (task.opaque) shown = Clamp(InFront<kIsRare>(task, packet, shown, light.w), Float(-kMax), Float(kMax));
   if (!task.opaque && room >= LaneCount()) {
     // The image's bytes come from operator new, which aligns them for float.
     hn::StoreInterleaved4(shown.x.raw, shown.y.raw, shown.z.raw, light.w.raw, FloatTag(),
@@ -169,11 +180,12 @@ HWY_INLINE void EncodeLinear(const EncodeTask& task, const Packet& packet, std::
 }
 
 // Pixels, of which `room` may be written.
+template <bool kIsRare>
 HWY_INLINE void EncodePacket(const EncodeTask& task, const Packet& packet, std::size_t room, std::byte* out) {
   switch (task.type) {
-    case ChannelType::U8: return StoreBytes(EncodeCodes(task, packet), task.opaque, room, out);
-    case ChannelType::U16: return StoreWords(EncodeCodes(task, packet), task.opaque, room, out);
-    case ChannelType::F32: return EncodeLinear(task, packet, room, out);
+    case ChannelType::U8: return StoreBytes(EncodeCodes<kIsRare>(task, packet), task.opaque, room, out);
+    case ChannelType::U16: return StoreWords(EncodeCodes<kIsRare>(task, packet), task.opaque, room, out);
+    case ChannelType::F32: return EncodeLinear<kIsRare>(task, packet, room, out);
   }
 }
 
@@ -184,22 +196,23 @@ HWY_INLINE bool IsEmpty(const float* pixels) {
   return All(bits == Int(0));
 }
 
-void EncodePixels(const EncodeTask& task) {
+template <bool kIsRare>
+void EncodeRows(const EncodeTask& task) {
   const std::size_t lanes = LaneCount(), pixel_size = task.PixelBytes();
   alignas(64) std::byte empty[4 * kMaxLanes * sizeof(float)];  // a packet of empty pixels
   const float zeros[4 * kMaxLanes] = {};
-  EncodePacket(task, {zeros, nullptr}, lanes, empty);
+  EncodePacket<kIsRare>(task, {zeros, nullptr}, lanes, empty);
   for (std::size_t y = 0; y < task.rows; ++y) {
     for (std::size_t x = 0; x < task.count; x += lanes) {
       const std::size_t count = std::min(lanes, task.count - x);
       const std::size_t first = y * task.pixel_stride + x;
-      Packet packet{task.pixels + 4 * first, task.through != nullptr ? task.through + 3 * first : nullptr};
+      Packet packet{task.pixels + 4 * first, kIsRare && task.through != nullptr ? task.through + 3 * first : nullptr};
       float padded[4 * kMaxLanes], padded_through[3 * kMaxLanes];
       if (count < lanes) {
         std::fill(std::begin(padded), std::end(padded), 0.0f);
         std::copy_n(packet.pixels, 4 * count, padded);
         packet.pixels = padded;
-        if (packet.through != nullptr) {
+        if (kIsRare && packet.through != nullptr) {
           std::fill(std::begin(padded_through), std::end(padded_through), 0.0f);
           std::copy_n(packet.through, 3 * count, padded_through);
           packet.through = padded_through;
@@ -209,11 +222,13 @@ void EncodePixels(const EncodeTask& task) {
       if (IsEmpty(packet.pixels)) {
         std::memcpy(out, empty, count * pixel_size);
       } else {
-        EncodePacket(task, packet, count, out);
+        EncodePacket<kIsRare>(task, packet, count, out);
       }
     }
   }
 }
+
+void EncodePixels(const EncodeTask& task) { IsRare(task) ? EncodeRows<true>(task) : EncodeRows<false>(task); }
 
 }  // namespace HWY_NAMESPACE
 }  // namespace facet

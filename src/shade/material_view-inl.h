@@ -168,9 +168,13 @@ class MaterialView {
   HWY_INLINE MaterialInputs<T> Inputs(const Surface<T>& s) const {
     TextureReader<T> own(s);
     TextureReader<T>& textures = ReaderOf(s, own);
-    if (m_.parameters != nullptr) return InputsOfOther(s, textures);
+    // Only users' shaders ask for this of other models, and they ask for all lobes.
+    constexpr bool kIsGltf = kPossible != kAllLobes;
+    if constexpr (!kIsGltf) {
+      if (m_.parameters != nullptr) return InputsOfOther(s, textures);
+    }
     textures.ReadAll(m_);
-    const Vec4<T> base = BaseColor(s, textures);
+    const Vec4<T> base = BaseColor<kIsGltf>(s, textures);
     const Source source{m_, s, textures};
     MaterialInputs<T> in = ReadInputs<T, kPossible>(source, base, m_.features);
     in.footprint_alpha2 = s.footprint_alpha2;
@@ -212,7 +216,7 @@ class MaterialView {
   }
 
   // Of a model that is not glTF's: a rough dielectric of its base colour.
-  HWY_INLINE MaterialInputs<T> InputsOfOther(const Surface<T>& s, TextureReader<T>& textures) const {
+  HWY_NOINLINE MaterialInputs<T> InputsOfOther(const Surface<T>& s, TextureReader<T>& textures) const {
     const Vec4<T> base = BaseColor(s, textures);
     MaterialInputs<T> in;
     in.base_color = Xyz(base);
@@ -237,13 +241,16 @@ class MaterialView {
     }
   }
 
+  // `kIsGltf`: the coverage is the base colour's alpha for certain.
+  template <bool kIsGltf = false>
   HWY_INLINE Vec4<T> BaseColor(const Surface<T>& s, TextureReader<T>& textures) const {
+    const bool has_coverage_apart = !kIsGltf && m_.coverage_slot != Slot::BaseColor;
     Vec4<T> c{T(m_.factors.base_color[0]) * s.color.x, T(m_.factors.base_color[1]) * s.color.y,
               T(m_.factors.base_color[2]) * s.color.z, T(m_.factors.base_color[3]) * s.color.w};
-    if (m_.coverage_slot != Slot::BaseColor && m_.ReadsCoverage()) c.w = c.w * Coverage(textures);
+    if (has_coverage_apart && m_.ReadsCoverage()) c.w = c.w * Coverage(textures);
     if (!m_.Reads(Slot::BaseColor)) return c;
     Vec4<T> texel = textures.template Read<kRgba>(m_.Texture(Slot::BaseColor));
-    if (m_.coverage_slot != Slot::BaseColor || !m_.ReadsCoverage()) texel.w = T(1.0f);
+    if (has_coverage_apart || m_.alpha_mode == AlphaMode::Opaque) texel.w = T(1.0f);
     return c * texel;
   }
 
