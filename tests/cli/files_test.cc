@@ -267,8 +267,8 @@ class EndedRun {
     if (child_ != 0) return;
     const int null = open("/dev/null", O_RDWR);
     for (const int stream : {0, 1, 2}) dup2(null, stream);
-    execl(FACET_PROGRAM, FACET_PROGRAM, "render", scene.c_str(), "-o", out.c_str(), "--size", "4096x4096",
-          "--memory-limit", "64MiB", "--threads", "1", static_cast<char*>(nullptr));
+    execl(FACET_PROGRAM, FACET_PROGRAM, "render", scene.c_str(), "-o", out.c_str(), "--size", "8192x8192",
+          "--memory-limit", "128MiB", "--threads", "1", static_cast<char*>(nullptr));
     _exit(127);
   }
   ~EndedRun() { End(SIGKILL); }
