@@ -26,4 +26,13 @@ std::string Quoted(std::string_view text) {
   return quoted;
 }
 
+std::string Joined(const std::vector<std::string>& parts, std::string_view separator) {
+  std::string text;
+  for (const std::string& part : parts) {
+    if (!text.empty()) text += separator;
+    text += part;
+  }
+  return text;
+}
+
 }  // namespace facet

@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace facet {
 
@@ -11,5 +12,8 @@ std::string Printable(std::string_view text);
 
 // The same between single quotes.
 std::string Quoted(std::string_view text);
+
+// "red, green, blue".
+std::string Joined(const std::vector<std::string>& parts, std::string_view separator = ", ");
 
 }  // namespace facet

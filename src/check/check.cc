@@ -76,12 +76,6 @@ std::string Summary(const ImageDifference& d) {
          " pixels differ";
 }
 
-std::string Joined(const std::vector<std::string>& parts) {
-  std::string text;
-  for (const std::string& part : parts) text += (text.empty() ? "" : ", ") + part;
-  return text;
-}
-
 ExpectedInputs HashInputs(const RenderInputs& inputs) {
   const SceneDigests scene = HashScene(inputs.loaded.scene);
   return {scene.description, scene.geometry, scene.textures, HashEnvironment(inputs.settings.environment)};

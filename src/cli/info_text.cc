@@ -48,12 +48,6 @@ std::string Bytes(std::size_t bytes) {
   return BytesText(static_cast<double>(bytes));
 }
 
-std::string Join(const std::vector<std::string>& parts, const char* separator = ", ") {
-  std::string text;
-  for (const std::string& part : parts) text += (text.empty() ? "" : separator) + part;
-  return text;
-}
-
 std::string Describe(const Geometry& geometry) {
   std::vector<std::string> parts;
   if (geometry.triangles > 0) parts.push_back(Plural(geometry.triangles, "triangle"));
@@ -63,7 +57,7 @@ std::string Describe(const Geometry& geometry) {
     parts.push_back(Plural(geometry.vertices, "vertex", "vertices"));
     parts.push_back(Plural(geometry.primitives, "primitive"));
   }
-  return parts.empty() ? "nothing drawn" : Join(parts);
+  return parts.empty() ? "nothing drawn" : Joined(parts);
 }
 
 std::string Describe(const MeshSummary& mesh) {
@@ -74,7 +68,7 @@ std::string Describe(const MeshSummary& mesh) {
   if (mesh.colors) parts.push_back("vertex colours");
   if (mesh.morph_targets > 0) parts.push_back(Plural(mesh.morph_targets, "morph target"));
   if (mesh.influences > 0) parts.push_back(std::to_string(mesh.influences) + " joints a vertex");
-  return Join(parts);
+  return Joined(parts);
 }
 
 std::string Describe(const TextureUse& use) {
@@ -134,12 +128,12 @@ std::string Describe(const MaterialSummary& summary) {
       parts.push_back(parameter.name + Numbers(value));
     }
   });
-  std::string text = Join(parts);
+  std::string text = Joined(parts);
   std::vector<std::string> textures;
   for (const TextureUse& use : summary.textures) textures.push_back(Describe(use));
-  text += textures.empty() ? "; no textures" : "; textures: " + Join(textures);
+  text += textures.empty() ? "; no textures" : "; textures: " + Joined(textures);
   if (!summary.ignored.empty()) {
-    text += std::string("; not used because it is ") + InfoOf(material.model).word + ": " + Join(summary.ignored);
+    text += std::string("; not used because it is ") + InfoOf(material.model).word + ": " + Joined(summary.ignored);
   }
   if (summary.primitives == 0) text += "; not used";
   return text;
@@ -174,7 +168,7 @@ std::string Describe(const AnimationSummary& animation) {
   add(animation.rotations, "rotation");
   add(animation.scales, "scale");
   add(animation.weights, "morph weight");
-  return Format("%.4g s, ", animation.duration_seconds) + (paths.empty() ? "no channels" : Join(paths));
+  return Format("%.4g s, ", animation.duration_seconds) + (paths.empty() ? "no channels" : Joined(paths));
 }
 
 std::string Describe(const SceneSummary& scene) {
@@ -207,7 +201,7 @@ std::string Describe(const ImageSummary& image) {
     parts.push_back(Bytes(header.bytes));
   }
   parts.push_back(image.textures == 0 ? "not used" : "used by " + Plural(image.textures, "texture"));
-  return Join(parts);
+  return Joined(parts);
 }
 
 std::string Describe(const Skin& skin) { return Plural(skin.joints.size(), "joint"); }

@@ -15,15 +15,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string Joined(const std::vector<std::string>& parts, const char* between) {
-  std::string text;
-  for (const std::string& part : parts) {
-    if (!text.empty()) text += between;
-    text += part;
-  }
-  return text;
-}
-
 std::string RangeOf(const ParameterDescription& p) {
   if (p.type == "choice") return Joined(p.choices, " | ");
   if (p.type == "true or false" || p.type == "direction") return "";
@@ -99,7 +90,7 @@ void RunModels(const ModelsOptions& options) {
   }
   if (chosen.empty()) {
     throw Error(ErrorCode::InvalidUsage, "there is no model " + Quoted(options.name), {},
-                "use one of " + Joined(names, ", "));
+                "use one of " + Joined(names));
   }
   if (options.chart) {
     if (options.name.empty())

@@ -59,10 +59,6 @@ HWY_INLINE T Smoothstep(T low, T high, T x) {
 
 template <class T>
 HWY_INLINE Vec3<T> Gt7Curve(Vec3<T> light) {
-  constexpr float kRec2020FromRec709[9] = {0.6274f, 0.3293f, 0.0433f, 0.0691f, 0.9195f,
-                                           0.0113f, 0.0164f, 0.0880f, 0.8956f};
-  constexpr float kRec709FromRec2020[9] = {1.6605f,  -0.5876f, -0.0728f, -0.1246f, 1.1329f,
-                                           -0.0083f, -0.0182f, -0.1006f, 1.1187f};
   // The curve: a toe up to `kMiddle`, a straight part up to `kStraight` of the peak, an exponential shoulder.
   constexpr float kPeak = 2.5f, kAlpha = 0.25f, kMiddle = 0.538f, kStraight = 0.444f, kToe = 1.28f;
   constexpr float kSlope = (kStraight - 1.0f) / (kAlpha - 1.0f);

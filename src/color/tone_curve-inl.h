@@ -33,6 +33,12 @@ HWY_INLINE Vec3<T> Transform(const float (&m)[9], Vec3<T> a) {
           T(m[6]) * a.x + T(m[7]) * a.y + T(m[8]) * a.z};
 }
 
+// Between the primaries of Recommendations ITU-R BT.709 and BT.2020, of light, to four digits, as AgX' sources have them.
+inline constexpr float kRec2020FromRec709[9] = {0.6274f, 0.3293f, 0.0433f, 0.0691f, 0.9195f,
+                                                0.0113f, 0.0164f, 0.0880f, 0.8956f};
+inline constexpr float kRec709FromRec2020[9] = {1.6605f,  -0.5876f, -0.0728f, -0.1246f, 1.1329f,
+                                                -0.0083f, -0.0182f, -0.1006f, 1.1187f};
+
 // No curve: clamps to 1.
 template <class T>
 HWY_INLINE Vec3<T> ClampCurve(Vec3<T> light) {
@@ -106,10 +112,6 @@ inline constexpr AgXLook kAgXBase{}, kAgXGolden{{1.0f, 0.9f, 0.5f}, 0.8f, 1.3f},
 // 4.026069] stops, curve, outset, and 2.2 to the linear light that sRGB encodes afterwards.
 template <class T>
 HWY_INLINE Vec3<T> AgXCurve(Vec3<T> light, const AgXLook& look) {
-  constexpr float kRec2020FromRec709[9] = {0.6274f, 0.3293f, 0.0433f, 0.0691f, 0.9195f,
-                                           0.0113f, 0.0164f, 0.0880f, 0.8956f};
-  constexpr float kRec709FromRec2020[9] = {1.6605f,  -0.5876f, -0.0728f, -0.1246f, 1.1329f,
-                                           -0.0083f, -0.0182f, -0.1006f, 1.1187f};
   constexpr float kInset[9] = {0.856627153315983f, 0.0951212405381588f, 0.0482516061458583f,
                                0.137318972929847f, 0.761241990602591f,  0.101439036467562f,
                                0.11189821299995f,  0.0767994186031903f, 0.811302368396859f};

@@ -57,12 +57,6 @@ std::string Bytes(double bytes) {
   return std::string(bytes < 0.0 ? "-" : "") + BytesWords(bytes < 0.0 ? -bytes : bytes);
 }
 
-std::string Joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
-}
-
 // --- Sections -------------------------------------------------------------------------------------------------------
 
 std::string GeometryText(const RenderStats& stats) {

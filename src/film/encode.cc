@@ -78,7 +78,6 @@ EncodeTask MakeEncodeTask(const DisplaySettings& settings, ChannelType type) {
   task.tone_map = settings.tone_map;
   task.transfer = settings.transfer;
   task.grading = FactorsOf(settings.grading);
-  task.grades = !task.grading.ChangesNothing();
   task.exposure = ExposureFactor(settings);
   if (settings.background_srgb) {
     task.opaque = true;

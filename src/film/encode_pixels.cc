@@ -71,7 +71,7 @@ struct Packet {
 // Whether a task needs more than a curve that many ask for and a background behind all channels alike. Others have a
 // kernel of their own.
 bool IsRare(const EncodeTask& task) {
-  return task.grades || task.transfer != Transfer::Srgb || task.tone_map > ToneMap::Neutral || task.through != nullptr;
+  return !task.grading.ChangesNothing() || task.transfer != Transfer::Srgb || task.tone_map > ToneMap::Neutral || task.through != nullptr;
 }
 
 // Composites light over the background. Behind an empty pixel a background of exactly 1 stays exactly 1.
@@ -99,7 +99,7 @@ template <bool kIsRare>
 HWY_INLINE Codes EncodeCodes(const EncodeTask& task, const Packet& packet) {
   const Vec4<Float> light = ExposedLight(task, packet.pixels);
   Vec3<Float> shown = Xyz(light);
-  if (kIsRare && task.grades) shown = ApplyGrading(task.grading, shown);
+  if (kIsRare && !task.grading.ChangesNothing()) shown = ApplyGrading(task.grading, shown);
   shown = kIsRare && task.tone_map > ToneMap::Neutral ? ApplyRareToneMap(task.tone_map, shown)
                                                       : ApplyToneMap(task.tone_map, shown);
   if (task.opaque) shown = InFront<kIsRare>(task, packet, shown, light.w);

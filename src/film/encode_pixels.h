@@ -18,7 +18,6 @@ struct EncodeTask {
   std::byte* out = nullptr;  // 4 components of `type` each, or 3 if `opaque`
   ChannelType type = ChannelType::U8;
   ToneMap tone_map = ToneMap::None;
-  bool grades = false;  // `grading` changes something
   GradingFactors grading;
   Transfer transfer = Transfer::Srgb;
   float exposure = 1.0f;  // a factor, finite, positive

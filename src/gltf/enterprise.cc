@@ -41,7 +41,7 @@ void ReadNamed(const Json& group, const Place& place, const RowOptions& row, con
   const auto text = LenientString(group, name, place);
   if (!text) return;
   for (std::size_t i = 0; i < row.words.size(); ++i) {
-    const std::string_view word = row.words[i];  // drafts leave out its first half
+    const std::string_view word = row.words[i];  // the draft texts write POWER for LUMINOUS_POWER
     if (*text == word || *text == word.substr(word.find('_') + 1)) {
       out = static_cast<Value>(i);
       return;

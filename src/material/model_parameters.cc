@@ -54,11 +54,6 @@ std::span<const SlotInfo> SlotsOf(ShadingModel model) {
   return kSlots;
 }
 
-const SlotInfo& InfoOf(ShadingModel model, Slot slot) {
-  const std::span<const SlotInfo> slots = SlotsOf(model);
-  return *std::ranges::find(slots, slot, &SlotInfo::slot);
-}
-
 const TextureRef& TextureIn(const Material& material, const SlotInfo& slot) {
   if (material.parameters == nullptr) return material.*slot.ref;
   const TextureRef* found = nullptr;

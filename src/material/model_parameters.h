@@ -109,7 +109,6 @@ consteval Slot SlotOf(Value Block::*member) {
 
 // The slots of a model's textures, glTF's models included.
 std::span<const SlotInfo> SlotsOf(ShadingModel model);
-const SlotInfo& InfoOf(ShadingModel model, Slot slot);
 // The material's texture in a slot of its model.
 const TextureRef& TextureIn(const Material& material, const SlotInfo& slot);
 

@@ -5,7 +5,6 @@
 #pragma once
 
 #include <array>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 
@@ -226,13 +225,5 @@ inline constexpr auto kFactorFeatures = std::to_array<FactorFeature>({
     {kAnisotropy, Feature::Anisotropy, "anisotropy", "no drawn material has it", IsAnisotropic,
      [](Material& m) { m.anisotropy_strength = 0.0f; }, IsAnisotropic},
 });
-
-// Calls body(Slot) for each texture whose bit is set, in the order of the table.
-template <class Body>
-constexpr void ForEachSlot(MaterialFeatures features, const Body& body) {
-  for (MaterialFeatures left = features & kTextureBits; left != 0; left &= left - 1) {
-    body(static_cast<Slot>(std::countr_zero(left)));
-  }
-}
 
 }  // namespace facet

@@ -15,6 +15,7 @@
 #include "base/json_bounds.h"
 #include "base/memory_budget.h"
 #include "base/number_text.h"
+#include "base/printable.h"
 #include "facet/load.h"
 #include "facet/models.h"
 #include "gltf/pictures.h"
@@ -25,12 +26,6 @@
 
 namespace facet {
 namespace {
-
-std::string Listed(const std::vector<std::string>& names) {
-  std::string list;
-  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
-  return list;
-}
 
 // --- Values ---------------------------------------------------------------------------------------------------------
 
@@ -64,7 +59,7 @@ void ReadValue(const JsonValue& value, const RowOptions& options, glm::vec<kLeng
     ReadValue({value.json[c], value.pointer / c, value.file}, options, number);
     exceptions += number == options.range.exception ? 1 : 0;
   }
-  if (exceptions != 0 && exceptions != kLength) {
+  if (exceptions != 0 && exceptions != static_cast<int>(size)) {
     value.Fail("mixes " + ShortNumber(double{options.range.exception}) + " with other numbers",
                "give one or the other");
   }
@@ -80,7 +75,7 @@ void ReadValue(const JsonValue& value, const RowOptions& options, Value& out) {
   const auto place = std::ranges::find(options.words, value.Text());
   if (place == options.words.end()) {
     value.Fail(Quoted(value.Text()) + " is unknown",
-               "use one of " + Listed({options.words.begin(), options.words.end()}));
+               "use one of " + Joined({options.words.begin(), options.words.end()}));
   }
   out = static_cast<Value>(place - options.words.begin());
 }
@@ -121,7 +116,7 @@ class MaterialFile {
         textures_(scene.textures) {}
 
   void Apply() {
-    const Bytes bytes = ReadFile(path_);
+    const Bytes bytes = ReadFile(path_, {.regular_only = true});  // a name may come from data
     const std::string text(bytes.Text());
     const MemoryLease lease(JsonMemory(text), 2, "JSON", name_);
     const StrictJson json = ParseStrictJson(text, name_);
@@ -184,7 +179,7 @@ class MaterialFile {
       if (value.Text() == model.word) return model.model;
       words.emplace_back(model.word);
     }
-    value.Fail("there is no model " + Quoted(value.Text()), "use one of " + Listed(words));
+    value.Fail("there is no model " + Quoted(value.Text()), "use one of " + Joined(words));
   }
 
   static ModelParameters ReadPreset(const JsonValue& value, ShadingModel model) {
@@ -194,7 +189,7 @@ class MaterialFile {
       if (value.Text() == preset) return EnterprisePreset(preset);
       words.emplace_back(preset);
     }
-    value.Fail("there is no preset " + Quoted(value.Text()), "use one of " + Listed(words));
+    value.Fail("there is no preset " + Quoted(value.Text()), "use one of " + Joined(words));
   }
 
   // The materials of the scene that the pattern stands for, or each of a list of patterns.
@@ -227,7 +222,7 @@ class MaterialFile {
     }
     if (names.size() < materials_.size()) names.emplace_back("...");
     pattern.Fail("no material's name matches " + Quoted(text),
-                 names.empty() ? "the scene has no materials" : "the scene has " + Listed(names));
+                 names.empty() ? "the scene has no materials" : "the scene has " + Joined(names));
   }
 
   // Primitives without a material get one of their own, with an empty name.

@@ -77,16 +77,21 @@ class Planner {
     f.is_seen_through = f.Has(kTransmission) && (f.shader == nullptr || f.shader->Transmits());
     if (!f.is_seen_through) {
       // A user's shader that knows nothing of what is behind a surface gets the material without transmission.
-      f.features &= ~(kTransmission | kDispersion);
-      if (f.parameters == nullptr) f.features &= ~BitOf(Slot::Transmission);
-      if (!f.Has(kDiffuseTransmission)) {
-        f.features &= ~kVolume;
-        if (f.parameters == nullptr) f.features &= ~BitOf(Slot::Thickness);
-      }
+      Remove(kTransmission, Feature::Transmission, f);
+      Remove(kDispersion, Feature::Dispersion, f);
+      if (!f.Has(kDiffuseTransmission)) Remove(kVolume, Feature::Volume, f);
     }
     if (f.Has(kFlakes)) f.first_uv_slot = UvSlotFor(f, 0);
     ForEachSlotOf(f.ModelOfSlots(), f.features, [&](const SlotInfo& slot) { BindTexture(material, slot, planned); });
     return planned;
+  }
+
+  // Removes a feature with its textures.
+  static void Remove(MaterialFeatures bit, Feature feature, FrameMaterial& f) {
+    f.features &= ~bit;
+    for (const SlotInfo& slot : SlotsOf(f.ModelOfSlots())) {
+      if (slot.feature == feature) f.features &= ~BitOf(slot.slot);
+    }
   }
 
   // Of geometry without tangents.
