@@ -1,10 +1,11 @@
-# facet_add_shader(TARGET NAME FILE [PARAMETERS HEADER])
+# facet_add_shader(TARGET NAME FILE [PARAMETERS HEADER] [MAY_INLINE])
 # Compiles the fragment shader functor NAME of FILE (see facet/shader/shader-inl.h) for every instruction set into TARGET,
 # which links facet::core, and declares facet::MakeNAME() in a header named after FILE: toon.h gives "toon.shader.h".
 # HEADER is for functors that have `NAMEParameters parameters;` as a member: it defines facet::NAMEParameters, and the
-# function becomes MakeNAME(const NAMEParameters&).
+# function becomes MakeNAME(const NAMEParameters&). MAY_INLINE leaves to the compiler what it inlines
+# (facet/shader/inline.h): large shaders compile faster and run slower, with the same values.
 function(facet_add_shader target name file)
-  cmake_parse_arguments(SHADER "" "PARAMETERS" "" ${ARGN})
+  cmake_parse_arguments(SHADER "MAY_INLINE" "PARAMETERS" "" ${ARGN})
   if(SHADER_PARAMETERS)
     get_filename_component(parameters ${SHADER_PARAMETERS} ABSOLUTE)
     set(include_parameters "#include \"${parameters}\"")
@@ -75,6 +76,9 @@ std::unique_ptr<const FragmentShader> Make@name@(@taken@) {
 }  // namespace facet
 #endif
 ]])
+  if(SHADER_MAY_INLINE)
+    set_source_files_properties(${source} PROPERTIES COMPILE_DEFINITIONS FACET_MAY_INLINE)
+  endif()
   target_sources(${target} PRIVATE ${source})
   target_include_directories(${target} PRIVATE ${folder})
   target_link_libraries(${target} PRIVATE facet::core facet::shader)

@@ -7,8 +7,8 @@ struct Toon {
   ToonParameters parameters;
   static constexpr LightUse kLight = LightUse::None;  // of the scene: it brings its own lamp
   template <class T>
-  HWY_INLINE Shaded<T> operator()(const Surface<T>& surface, const MaterialView<T>& material,
-                                  const LightingView<T>&) const {
+  FACET_INLINE Shaded<T> operator()(const Surface<T>& surface, const MaterialView<T>& material,
+                                    const LightingView<T>&) const {
     const Vec4<T> paint = material.BaseColor(surface);
     const Vec3<T> to_lamp{T(0.48f), T(0.64f), T(0.6f)};  // unit, world axes
     const T lit = Max(Dot(material.Normal(surface), to_lamp), T(0.0f));

@@ -26,7 +26,7 @@ struct CornerLanes {
 
 // Copies whole vertices to adjacent memory and transposes them, because gathers of single components take several times
 // as long.
-HWY_INLINE CornerLanes LoadCorners(const ScreenVertex* vertices, Int index) {
+FACET_INLINE CornerLanes LoadCorners(const ScreenVertex* vertices, Int index) {
   alignas(64) std::int32_t place[kMaxLanes], numbers[4 * kMaxLanes];
   Store(index, place);
   for (std::size_t k = 0; k < LaneCount(); ++k) std::memcpy(numbers + 4 * k, vertices + place[k], sizeof(ScreenVertex));
@@ -35,14 +35,14 @@ HWY_INLINE CornerLanes LoadCorners(const ScreenVertex* vertices, Int index) {
   return {x, y, outcode, FloatFromBits(depth)};
 }
 
-HWY_INLINE CornerLanes Select(Mask m, const CornerLanes& a, const CornerLanes& b) {
+FACET_INLINE CornerLanes Select(Mask m, const CornerLanes& a, const CornerLanes& b) {
   return {Select(m, a.x, b.x), Select(m, a.y, b.y), a.outcode, Select(m, a.depth, b.depth)};
 }
 
 // The samples of the CoverageSquare from (first_x, first_y) on that triangles cover, by the rasterizer's edge functions
 // and fill rule, as bits of ScreenTriangle::covered. Corners are clockwise and less than 4 pixels apart, so that every
 // term is below 2^22. (Lanes with other triangles overflow, and their results are not used.)
-HWY_INLINE Int CoveredSamples(const Int (&x_fx8)[3], const Int (&y_fx8)[3], Int first_x, Int first_y, int samples) {
+FACET_INLINE Int CoveredSamples(const Int (&x_fx8)[3], const Int (&y_fx8)[3], Int first_x, Int first_y, int samples) {
   const Int x0 = ShiftLeft<kSubpixelBits>(first_x), y0 = ShiftLeft<kSubpixelBits>(first_y);
   EdgeFunction<Int> edge[3];  // from the square's corner
   Int right[3], down[3];
@@ -75,9 +75,11 @@ HWY_INLINE Int CoveredSamples(const Int (&x_fx8)[3], const Int (&y_fx8)[3], Int 
 
 struct BoxLanes {
   Int low_x, high_x, low_y, high_y;
-  HWY_INLINE BoxLanes(const Int (&x)[3], const Int (&y)[3])
-      : low_x(Min(Min(x[0], x[1]), x[2])), high_x(Max(Max(x[0], x[1]), x[2])),
-        low_y(Min(Min(y[0], y[1]), y[2])), high_y(Max(Max(y[0], y[1]), y[2])) {}
+  FACET_INLINE BoxLanes(const Int (&x)[3], const Int (&y)[3])
+      : low_x(Min(Min(x[0], x[1]), x[2])),
+        high_x(Max(Max(x[0], x[1]), x[2])),
+        low_y(Min(Min(y[0], y[1]), y[2])),
+        high_y(Max(Max(y[0], y[1]), y[2])) {}
 };
 
 // The SampleCoverage of the lanes in `asked`; none for the others.
@@ -86,8 +88,8 @@ struct CoverageLanes {
   Int covered;
 };
 
-HWY_INLINE CoverageLanes FindCoverage(const Int (&x_fx8)[3], const Int (&y_fx8)[3], const BoxLanes& box, int samples,
-                                      Mask asked) {
+FACET_INLINE CoverageLanes FindCoverage(const Int (&x_fx8)[3], const Int (&y_fx8)[3], const BoxLanes& box, int samples,
+                                        Mask asked) {
   const auto first = [](Int low, int high) HWY_ATTR {  // FirstPixel()
     return ShiftRightArithmetic<kSubpixelBits>(low + Int(kSubpixelScale - 1 - high));
   };
@@ -105,9 +107,9 @@ HWY_INLINE CoverageLanes FindCoverage(const Int (&x_fx8)[3], const Int (&y_fx8)[
 
 // Depth gradients over the screen, in double, from corners relative to the first. The operations are the same, in the
 // same order, as those for single triangles (assemble.cc).
-HWY_INLINE void DepthPlanes(const std::int32_t* x1, const std::int32_t* y1, const std::int32_t* x2,
-                            const std::int32_t* y2, const std::int32_t* area, const float (*depth)[kMaxLanes],
-                            double* depth_dx, double* depth_dy) {
+FACET_INLINE void DepthPlanes(const std::int32_t* x1, const std::int32_t* y1, const std::int32_t* x2,
+                              const std::int32_t* y2, const std::int32_t* area, const float (*depth)[kMaxLanes],
+                              double* depth_dx, double* depth_dy) {
   using D = hn::ScalableTag<double>;
   const D d;
   const auto real = [&](const std::int32_t* p) HWY_ATTR {

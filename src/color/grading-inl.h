@@ -17,7 +17,7 @@ namespace HWY_NAMESPACE {
 
 // Light of any sign comes out as light of 0 or more.
 template <class T>
-HWY_INLINE Vec3<T> Grade(const GradingFactors& grading, Vec3<T> light) {
+FACET_INLINE Vec3<T> Grade(const GradingFactors& grading, Vec3<T> light) {
   const T zero(0.0f);
   Vec3<T> c = BoundLight(light);
   if (grading.balances_white) c = BoundLight(Transform(grading.white_balance, c));

@@ -20,12 +20,12 @@ namespace HWY_NAMESPACE {
 
 // The perceptual quantizer of SMPTE ST 2084: light in units of 100 cd/m2 to [0, 1], and back.
 template <class T>
-HWY_INLINE T PqFromLight(T light) {
+FACET_INLINE T PqFromLight(T light) {
   const T y = Pow(Max(light, T(0.0f)) * T(0.01f), T(0.1593017578125f));
   return Pow((T(0.8359375f) + T(18.8515625f) * y) / (T(1.0f) + T(18.6875f) * y), T(78.84375f));
 }
 template <class T>
-HWY_INLINE T LightFromPq(T code) {
+FACET_INLINE T LightFromPq(T code) {
   const T n = Pow(Clamp(code, T(0.0f), T(1.0f)), T(1.0f / 78.84375f));
   const T y = Max(n - T(0.8359375f), T(0.0f)) / (T(18.8515625f) - T(18.6875f) * n);
   return Pow(y, T(1.0f / 0.1593017578125f)) * T(100.0f);
@@ -33,7 +33,7 @@ HWY_INLINE T LightFromPq(T code) {
 
 // Intensity, tritan and protan of Rec. 2020 light, and back.
 template <class T>
-HWY_INLINE Vec3<T> IctcpFromRec2020(Vec3<T> light) {
+FACET_INLINE Vec3<T> IctcpFromRec2020(Vec3<T> light) {
   constexpr float kCones[9] = {1688.0f / 4096, 2146.0f / 4096, 262.0f / 4096, 683.0f / 4096, 2951.0f / 4096,
                                462.0f / 4096,  99.0f / 4096,   309.0f / 4096, 3688.0f / 4096};
   constexpr float kOpponent[9] = {
@@ -43,7 +43,7 @@ HWY_INLINE Vec3<T> IctcpFromRec2020(Vec3<T> light) {
   return Transform(kOpponent, Vec3<T>{PqFromLight(c.x), PqFromLight(c.y), PqFromLight(c.z)});
 }
 template <class T>
-HWY_INLINE Vec3<T> Rec2020FromIctcp(Vec3<T> color) {
+FACET_INLINE Vec3<T> Rec2020FromIctcp(Vec3<T> color) {
   constexpr float kCodes[9] = {1.0f, 0.00860904f, 0.11103f, 1.0f, -0.00860904f, -0.11103f, 1.0f, 0.560031f, -0.320627f};
   constexpr float kLight[9] = {3.43661f,   -2.50645f,   0.06984f,    -0.79133f, 1.9836f,
                                -0.192271f, -0.0259499f, -0.0989137f, 1.12486f};
@@ -52,13 +52,13 @@ HWY_INLINE Vec3<T> Rec2020FromIctcp(Vec3<T> color) {
 }
 
 template <class T>
-HWY_INLINE T Smoothstep(T low, T high, T x) {
+FACET_INLINE T Smoothstep(T low, T high, T x) {
   const T t = Clamp((x - low) / (high - low), T(0.0f), T(1.0f));
   return t * t * (T(3.0f) - T(2.0f) * t);
 }
 
 template <class T>
-HWY_INLINE Vec3<T> Gt7Curve(Vec3<T> light) {
+FACET_INLINE Vec3<T> Gt7Curve(Vec3<T> light) {
   // The curve: a toe up to `kMiddle`, a straight part up to `kStraight` of the peak, an exponential shoulder.
   constexpr float kPeak = 2.5f, kAlpha = 0.25f, kMiddle = 0.538f, kStraight = 0.444f, kToe = 1.28f;
   constexpr float kSlope = (kStraight - 1.0f) / (kAlpha - 1.0f);

@@ -16,19 +16,19 @@ namespace facet {
 namespace HWY_NAMESPACE {
 
 template <class T>
-HWY_INLINE Vec3<T> Clamp(Vec3<T> a, T low, T high) {
+FACET_INLINE Vec3<T> Clamp(Vec3<T> a, T low, T high) {
   return {Clamp(a.x, low, high), Clamp(a.y, low, high), Clamp(a.z, low, high)};
 }
 
 // Non-negative and small enough to be squared; Clamp gives its lower bound for NaN.
 template <class T>
-HWY_INLINE Vec3<T> BoundLight(Vec3<T> light) {
+FACET_INLINE Vec3<T> BoundLight(Vec3<T> light) {
   return Clamp(light, T(0.0f), T(0x1p40f));
 }
 
 // A matrix of nine constants, rows first, times a column.
 template <class T>
-HWY_INLINE Vec3<T> Transform(const float (&m)[9], Vec3<T> a) {
+FACET_INLINE Vec3<T> Transform(const float (&m)[9], Vec3<T> a) {
   return {T(m[0]) * a.x + T(m[1]) * a.y + T(m[2]) * a.z, T(m[3]) * a.x + T(m[4]) * a.y + T(m[5]) * a.z,
           T(m[6]) * a.x + T(m[7]) * a.y + T(m[8]) * a.z};
 }
@@ -41,14 +41,14 @@ inline constexpr float kRec709FromRec2020[9] = {1.6605f,  -0.5876f, -0.0728f, -0
 
 // No curve: clamps to 1.
 template <class T>
-HWY_INLINE Vec3<T> ClampCurve(Vec3<T> light) {
+FACET_INLINE Vec3<T> ClampCurve(Vec3<T> light) {
   return Clamp(light, T(0.0f), T(1.0f));
 }
 
 // c / (1 + c) per channel. E. Reinhard, M. Stark, P. Shirley, J. Ferwerda, 2002, "Photographic Tone Reproduction for
 // Digital Images", equation 3; there on luminance, here on each channel, as lectures teach it.
 template <class T>
-HWY_INLINE Vec3<T> ReinhardCurve(Vec3<T> light) {
+FACET_INLINE Vec3<T> ReinhardCurve(Vec3<T> light) {
   const Vec3<T> c = BoundLight(light);
   const T one = T(1.0f);
   return {c.x / (one + c.x), c.y / (one + c.y), c.z / (one + c.z)};
@@ -58,7 +58,7 @@ HWY_INLINE Vec3<T> ReinhardCurve(Vec3<T> light) {
 // "BakingLab" by M. Pettineo and D. Neubelt), with the light divided by 0.6 first, as glTF engines use it to bring
 // middle grey to its place.
 template <class T>
-HWY_INLINE Vec3<T> AcesCurve(Vec3<T> light) {
+FACET_INLINE Vec3<T> AcesCurve(Vec3<T> light) {
   // Rec. 709 to AP1 with the saturation of the rendering transform, and back with that of the output transform.
   constexpr float kInput[9] = {0.59719f, 0.35458f, 0.04823f, 0.07600f, 0.90834f,
                                0.01566f, 0.02840f, 0.13383f, 0.83777f};
@@ -75,7 +75,7 @@ HWY_INLINE Vec3<T> AcesCurve(Vec3<T> light) {
 
 // K. Narkowicz's fit of the ACES curve, per channel (2016, "ACES Filmic Tone Mapping Curve"). Filament's "filmic".
 template <class T>
-HWY_INLINE Vec3<T> FilmicCurve(Vec3<T> light) {
+FACET_INLINE Vec3<T> FilmicCurve(Vec3<T> light) {
   const Vec3<T> c = BoundLight(light);
   const auto fit = [](T x) HWY_ATTR {
     return (x * (T(2.51f) * x + T(0.03f))) / (x * (T(2.43f) * x + T(0.59f)) + T(0.14f));
@@ -86,7 +86,7 @@ HWY_INLINE Vec3<T> FilmicCurve(Vec3<T> light) {
 // Filament's "generic" curve with its defaults: s x^c / (x^c + r), with the contrast c = 1.55, and s and r such that
 // light of 0.18 becomes 0.215, and light of 10 white.
 template <class T>
-HWY_INLINE Vec3<T> GenericCurve(Vec3<T> light) {
+FACET_INLINE Vec3<T> GenericCurve(Vec3<T> light) {
   constexpr float kContrast = 1.55f, kMiddle = 0.215f;
   constexpr double kIn = 0.0700926343770688, kWhite = 35.48133892335755;  // 0.18^1.55 and 10^1.55
   constexpr double kBelow = kIn - double{kMiddle} * kWhite;
@@ -111,7 +111,7 @@ inline constexpr AgXLook kAgXBase{}, kAgXGolden{{1.0f, 0.9f, 0.5f}, 0.8f, 1.3f},
 // AgX Implementation"; working space and matrices as in Filament and three.js: Rec. 2020, inset, log2 of [-12.47393,
 // 4.026069] stops, curve, outset, and 2.2 to the linear light that sRGB encodes afterwards.
 template <class T>
-HWY_INLINE Vec3<T> AgXCurve(Vec3<T> light, const AgXLook& look) {
+FACET_INLINE Vec3<T> AgXCurve(Vec3<T> light, const AgXLook& look) {
   constexpr float kInset[9] = {0.856627153315983f, 0.0951212405381588f, 0.0482516061458583f,
                                0.137318972929847f, 0.761241990602591f,  0.101439036467562f,
                                0.11189821299995f,  0.0767994186031903f, 0.811302368396859f};
@@ -143,14 +143,14 @@ HWY_INLINE Vec3<T> AgXCurve(Vec3<T> light, const AgXLook& look) {
 }
 
 template <class T>
-HWY_INLINE Vec3<T> AgXCurve(Vec3<T> light) {
+FACET_INLINE Vec3<T> AgXCurve(Vec3<T> light) {
   return AgXCurve(light, kAgXBase);
 }
 
 // Khronos PBR Neutral. Khronos Group (E. Chalmers), 2024, "Khronos PBR Neutral Tone Mapper" specification: base colours
 // below 0.8 come out as they are, the rest is compressed and loses saturation.
 template <class T>
-HWY_INLINE Vec3<T> NeutralCurve(Vec3<T> light) {
+FACET_INLINE Vec3<T> NeutralCurve(Vec3<T> light) {
   const T start_compression = T(0.8f - 0.04f), one = T(1.0f);
   const T desaturation = T(0.15f);
   Vec3<T> c = BoundLight(light);

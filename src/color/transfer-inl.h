@@ -16,20 +16,20 @@ namespace HWY_NAMESPACE {
 
 // Encoded to linear, any sign, to a few ULP.
 template <class T>
-HWY_INLINE T SrgbToLinear(T encoded) {
+FACET_INLINE T SrgbToLinear(T encoded) {
   const T power = Pow(Max((encoded + T(0.055f)) / T(1.055f), T(0.0f)), T(2.4f));
   return Select(encoded <= T(0.04045f), encoded / T(12.92f), power);
 }
 
 // Linear to encoded, any sign, to a few ULP.
 template <class T>
-HWY_INLINE T LinearToSrgb(T linear) {
+FACET_INLINE T LinearToSrgb(T linear) {
   const T power = T(1.055f) * Pow(Max(linear, T(0.0f)), T(1.0f / 2.4f)) - T(0.055f);
   return Select(linear <= T(0.0031308f), linear * T(12.92f), power);
 }
 
 // The nearest 8-bit code, exactly: LinearToSrgb8 on lanes. NaN gives 0.
-HWY_INLINE Int NearestSrgb8(Float linear, const SrgbTables& tables) {
+FACET_INLINE Int NearestSrgb8(Float linear, const SrgbTables& tables) {
   // What lies outside the buckets has the code of their ends.
   const Float bounded = Clamp(linear, FloatFromBits(Int(SrgbTables::kFirstBits)), Float(0x1.fffffep-1f));
   constexpr int kShift = SrgbTables::kBucketShift;
@@ -39,7 +39,7 @@ HWY_INLINE Int NearestSrgb8(Float linear, const SrgbTables& tables) {
 }
 
 // The nearest 16-bit code, exactly, given Srgb16Thresholds(). NaN gives 0.
-HWY_INLINE Int NearestSrgb16(Float linear, const float* thresholds) {
+FACET_INLINE Int NearestSrgb16(Float linear, const float* thresholds) {
   const Float bounded = Clamp(linear, Float(0.0f), Float(1.0f));
   const Int code = TruncateToInt(LinearToSrgb(bounded) * Float(65535.0f) + Float(0.5f));  // off by one at most
   const Int lower = Select(bounded < Gather(thresholds, code), Int(1), Int(0));

@@ -36,7 +36,7 @@ HWY_NOINLINE Vec3<Float> ApplyGrading(const GradingFactors& grading, Vec3<Float>
   return Grade(grading, light);
 }
 
-HWY_INLINE Vec3<Float> ApplyToneMap(ToneMap tone_map, Vec3<Float> light) {
+FACET_INLINE Vec3<Float> ApplyToneMap(ToneMap tone_map, Vec3<Float> light) {
   switch (tone_map) {
     case ToneMap::Reinhard: return ReinhardCurve(light);
     case ToneMap::Aces: return AcesCurve(light);
@@ -47,7 +47,7 @@ HWY_INLINE Vec3<Float> ApplyToneMap(ToneMap tone_map, Vec3<Float> light) {
 }
 
 // Straight (not premultiplied), exposed light; alpha in [0, 1]. Pixels that are not finite are empty.
-HWY_INLINE Vec4<Float> ExposedLight(const EncodeTask& task, const float* pixels) {
+FACET_INLINE Vec4<Float> ExposedLight(const EncodeTask& task, const float* pixels) {
   Float r, g, b, a;
   hn::LoadInterleaved4(FloatTag(), pixels, r.raw, g.raw, b.raw, a.raw);
   const Vec4<Float> p{r, g, b, a};
@@ -76,7 +76,7 @@ bool IsRare(const EncodeTask& task) {
 
 // Composites light over the background. Behind an empty pixel a background of exactly 1 stays exactly 1.
 template <bool kIsRare>
-HWY_INLINE Vec3<Float> InFront(const EncodeTask& task, const Packet& packet, Vec3<Float> light, Float alpha) {
+FACET_INLINE Vec3<Float> InFront(const EncodeTask& task, const Packet& packet, Vec3<Float> light, Float alpha) {
   const Float one(1.0f), by_alpha = one - alpha;
   Vec3<Float> through{by_alpha, by_alpha, by_alpha};
   if (kIsRare && packet.through != nullptr) {
@@ -96,7 +96,7 @@ struct Codes {
 
 // `kIsRare`: IsRare(task).
 template <bool kIsRare>
-HWY_INLINE Codes EncodeCodes(const EncodeTask& task, const Packet& packet) {
+FACET_INLINE Codes EncodeCodes(const EncodeTask& task, const Packet& packet) {
   const Vec4<Float> light = ExposedLight(task, packet.pixels);
   Vec3<Float> shown = Xyz(light);
   if (kIsRare && !task.grading.ChangesNothing()) shown = ApplyGrading(task.grading, shown);
@@ -122,7 +122,7 @@ HWY_INLINE Codes EncodeCodes(const EncodeTask& task, const Packet& packet) {
 }
 
 // Stores LaneCount() pixels of four or three bytes; `room` pixels may be written.
-HWY_INLINE void StoreBytes(const Codes& codes, bool opaque, std::size_t room, std::byte* out) {
+FACET_INLINE void StoreBytes(const Codes& codes, bool opaque, std::size_t room, std::byte* out) {
   static_assert(std::endian::native == std::endian::little, "the packing below puts red first");
   const Int packed = codes.r | ShiftLeft<8>(codes.g) | ShiftLeft<16>(codes.b) | ShiftLeft<24>(codes.a);
   std::int32_t pixels[kMaxLanes];
@@ -138,7 +138,7 @@ HWY_INLINE void StoreBytes(const Codes& codes, bool opaque, std::size_t room, st
 }
 
 template <class Number, class Value>
-HWY_INLINE void StoreEach(const Value (&values)[4][kMaxLanes], bool opaque, std::size_t room, std::byte* out) {
+FACET_INLINE void StoreEach(const Value (&values)[4][kMaxLanes], bool opaque, std::size_t room, std::byte* out) {
   const std::size_t channels = opaque ? 3 : 4;
   const std::size_t count = std::min(LaneCount(), room);
   Number packed[4 * kMaxLanes];
@@ -150,7 +150,7 @@ HWY_INLINE void StoreEach(const Value (&values)[4][kMaxLanes], bool opaque, std:
   std::memcpy(out, packed, count * channels * sizeof(Number));
 }
 
-HWY_INLINE void StoreWords(const Codes& codes, bool opaque, std::size_t room, std::byte* out) {
+FACET_INLINE void StoreWords(const Codes& codes, bool opaque, std::size_t room, std::byte* out) {
   std::int32_t values[4][kMaxLanes];
   Store(codes.r, values[0]);
   Store(codes.g, values[1]);
@@ -160,7 +160,7 @@ HWY_INLINE void StoreWords(const Codes& codes, bool opaque, std::size_t room, st
 }
 
 template <bool kIsRare>
-HWY_INLINE void EncodeLinear(const EncodeTask& task, const Packet& packet, std::size_t room, std::byte* out) {
+FACET_INLINE void EncodeLinear(const EncodeTask& task, const Packet& packet, std::size_t room, std::byte* out) {
   const Vec4<Float> light = ExposedLight(task, packet.pixels);
   constexpr float kMax = std::numeric_limits<float>::max();
   Vec3<Float> shown = Clamp(Xyz(light), Float(-kMax), Float(kMax));
@@ -181,7 +181,7 @@ HWY_INLINE void EncodeLinear(const EncodeTask& task, const Packet& packet, std::
 
 // Pixels, of which `room` may be written.
 template <bool kIsRare>
-HWY_INLINE void EncodePacket(const EncodeTask& task, const Packet& packet, std::size_t room, std::byte* out) {
+FACET_INLINE void EncodePacket(const EncodeTask& task, const Packet& packet, std::size_t room, std::byte* out) {
   switch (task.type) {
     case ChannelType::U8: return StoreBytes(EncodeCodes<kIsRare>(task, packet), task.opaque, room, out);
     case ChannelType::U16: return StoreWords(EncodeCodes<kIsRare>(task, packet), task.opaque, room, out);
@@ -190,7 +190,7 @@ HWY_INLINE void EncodePacket(const EncodeTask& task, const Packet& packet, std::
 }
 
 // True if all components of the packet are zero, as often in images without a background.
-HWY_INLINE bool IsEmpty(const float* pixels) {
+FACET_INLINE bool IsEmpty(const float* pixels) {
   Int bits(0);
   for (std::size_t i = 0; i < 4; ++i) bits = bits | BitsOf(LoadFloat(pixels + i * LaneCount()));
   return All(bits == Int(0));

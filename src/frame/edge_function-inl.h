@@ -22,7 +22,7 @@ struct EdgeFunction {
 
 // Of the edge from one corner to the next, clockwise on the screen (y down). Exact, if it does not overflow.
 template <class I>
-HWY_INLINE EdgeFunction<I> MakeEdgeFunction(I from_x, I from_y, I to_x, I to_y) {
+FACET_INLINE EdgeFunction<I> MakeEdgeFunction(I from_x, I from_y, I to_x, I to_y) {
   const I a = from_y - to_y, b = to_x - from_x;
   // A sample on an edge belongs to the triangle if the edge is a left one (inside lies towards +x) or a top one
   // (horizontal, inside below), so that two triangles with a common edge never both cover it, and never neither. For
@@ -33,7 +33,7 @@ HWY_INLINE EdgeFunction<I> MakeEdgeFunction(I from_x, I from_y, I to_x, I to_y) 
 
 // Whether all three edge functions have the sample on their inner side.
 template <class I>
-HWY_INLINE auto IsCovered(I e0, I e1, I e2) {
+FACET_INLINE auto IsCovered(I e0, I e1, I e2) {
   return !((e0 | e1 | e2) < I(0));
 }
 

@@ -17,7 +17,7 @@ namespace HWY_NAMESPACE {
 
 // The radiance reflected along `direction` by a surface of this roughness, interpolated between the two nearest levels.
 template <class T>
-HWY_INLINE Vec3<T> PrefilteredRadiance(const EnvironmentMap& map, Vec3<T> direction, T perceptual_roughness) {
+FACET_INLINE Vec3<T> PrefilteredRadiance(const EnvironmentMap& map, Vec3<T> direction, T perceptual_roughness) {
   const float last = static_cast<float>(EnvironmentMap::kLevels - 1);
   const TablePosition<T> at = PositionInTable(perceptual_roughness * T(last), last);
   const Vec2<T> uv = OctahedronFromDirection(direction);
@@ -33,7 +33,7 @@ HWY_INLINE Vec3<T> PrefilteredRadiance(const EnvironmentMap& map, Vec3<T> direct
 // of their alphas. It is lower, because mixtures are wider than what lies between: halfway from a mirror to the first
 // rough level half of that level's square is in the mixture, and a sixteenth in the lobe.
 template <class T>
-HWY_INLINE T RoughnessOfMixture(T perceptual_roughness) {
+FACET_INLINE T RoughnessOfMixture(T perceptual_roughness) {
   constexpr float kLast = static_cast<float>(EnvironmentMap::kLevels - 1);
   const auto fourth = [](T x) HWY_ATTR { return (x * x) * (x * x); };
   const T at = perceptual_roughness * T(kLast), level = Floor(at), first = fourth(level);
@@ -42,7 +42,7 @@ HWY_INLINE T RoughnessOfMixture(T perceptual_roughness) {
 
 // Irradiance on a surface facing `normal`, divided by pi.
 template <class T>
-HWY_INLINE Vec3<T> IrradianceOverPi(const EnvironmentMap& map, Vec3<T> normal) {
+FACET_INLINE Vec3<T> IrradianceOverPi(const EnvironmentMap& map, Vec3<T> normal) {
   const std::int32_t size = map.irradiance.size;
   return SampleOctahedron<T>(map.texel_data, T(static_cast<float>(size)), IntOf<T>((size + 1) * 4),
                              IntOf<T>(map.irradiance.offset), OctahedronFromDirection(normal));
@@ -50,8 +50,8 @@ HWY_INLINE Vec3<T> IrradianceOverPi(const EnvironmentMap& map, Vec3<T> normal) {
 
 // Bilinear lookup in an equirectangular image of 4-float pixels. `direction`: of any length but 0.
 template <class T>
-HWY_INLINE Vec3<T> SampleEquirectangular(const float* image, std::int32_t width, std::int32_t height,
-                                         Vec3<T> direction) {
+FACET_INLINE Vec3<T> SampleEquirectangular(const float* image, std::int32_t width, std::int32_t height,
+                                           Vec3<T> direction) {
   const T length = Sqrt(Dot(direction, direction));
   const T y_unit = Clamp(direction.y / Max(length, T(1e-30f)), T(-1.0f), T(1.0f));
   const T w = T(static_cast<float>(width));
@@ -78,7 +78,7 @@ HWY_INLINE Vec3<T> SampleEquirectangular(const float* image, std::int32_t width,
 
 // The environment as it is visible in a direction: from the image if that was kept, otherwise from level 0.
 template <class T>
-HWY_INLINE Vec3<T> SharpRadiance(const EnvironmentMap& map, Vec3<T> direction) {
+FACET_INLINE Vec3<T> SharpRadiance(const EnvironmentMap& map, Vec3<T> direction) {
   if (map.image_data != nullptr) {
     return SampleEquirectangular(map.image_data, map.image_width, map.image_height, direction);
   }

@@ -11,13 +11,13 @@ namespace facet {
 namespace HWY_NAMESPACE {
 
 // Coordinates in [0, 1]^2 of the texels first, first + 1 ... of a row; beyond its end those of the last.
-HWY_INLINE Vec2<Float> NodesOfRow(std::int32_t first, std::int32_t row, std::int32_t size) {
+FACET_INLINE Vec2<Float> NodesOfRow(std::int32_t first, std::int32_t row, std::int32_t size) {
   const Float scale = Float(1.0f / static_cast<float>(size));  // exact: a power of two
   return {Min(ToFloat(LaneIndex() + Int(first)) * scale, Float(1.0f)), Float(static_cast<float>(row)) * scale};
 }
 
 // Reads a square of the chain: texels in the middle of cells, a border of one around them.
-HWY_INLINE Vec3<Float> SampleCells(const float* texels, std::int32_t size, std::int32_t origin, Vec2<Float> uv) {
+FACET_INLINE Vec3<Float> SampleCells(const float* texels, std::int32_t size, std::int32_t origin, Vec2<Float> uv) {
   // Columns and rows are counted from the border, so that nothing is negative.
   const Float scale = Float(static_cast<float>(size));
   const std::int32_t row = (size + 2) * 4;
@@ -27,7 +27,7 @@ HWY_INLINE Vec3<Float> SampleCells(const float* texels, std::int32_t size, std::
 }
 
 // The lanes that are texels of the row; `size` is its last.
-HWY_INLINE void StoreTexels(Vec3<Float> color, Float fourth, std::int32_t first, std::int32_t size, float* row) {
+FACET_INLINE void StoreTexels(Vec3<Float> color, Float fourth, std::int32_t first, std::int32_t size, float* row) {
   float r[kMaxLanes], g[kMaxLanes], b[kMaxLanes], a[kMaxLanes];
   Store(color.x, r);
   Store(color.y, g);
@@ -87,7 +87,7 @@ void FilterLobeRow(const LobeRowTask& task) {
 }
 
 // What light from a direction weighs in each mean of a ConvolveRowTask.
-HWY_INLINE void LobeWeights(const ConvolveRowTask& task, Float n_dot_l, Float (&weight)[kConvolvedLobes + 1]) {
+FACET_INLINE void LobeWeights(const ConvolveRowTask& task, Float n_dot_l, Float (&weight)[kConvolvedLobes + 1]) {
   static_assert(kConvolvedLobes == 4);
   const Float cosine = Max(n_dot_l, Float(0.0f));
   const Float n_dot_h2 = Float(0.5f) + Float(0.5f) * cosine;  // the half-angle formula; view = normal

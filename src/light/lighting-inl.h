@@ -17,7 +17,7 @@ namespace HWY_NAMESPACE {
 
 // KHR_lights_punctual at `position`, relative to the eye, world axes.
 template <class T>
-HWY_INLINE LightSample<T> SamplePunctual(const PunctualLight& light, Vec3<T> position) {
+FACET_INLINE LightSample<T> SamplePunctual(const PunctualLight& light, Vec3<T> position) {
   const Vec3<T> intensity = {T(light.intensity[0]), T(light.intensity[1]), T(light.intensity[2])};
   const Vec3<T> shines = {T(light.direction[0]), T(light.direction[1]), T(light.direction[2])};
   if (light.type == LightType::Directional) return {-shines, intensity};
@@ -42,14 +42,14 @@ HWY_INLINE LightSample<T> SamplePunctual(const PunctualLight& light, Vec3<T> pos
 
 // The rows of a DfgTable to interpolate between.
 template <class T>
-HWY_INLINE TablePosition<T> DfgRow(T perceptual_roughness) {
+FACET_INLINE TablePosition<T> DfgRow(T perceptual_roughness) {
   const float last = static_cast<float>(DfgTable::kRows - 1);
   const T root = Sqrt(Max(perceptual_roughness, T(0.0f)));
   return PositionInTable((root - T(DfgTable::kFirstRow)) * T(last / (1.0f - DfgTable::kFirstRow)), last);
 }
 
 template <class T>
-HWY_INLINE SpecularAlbedo<T> LookupDfg(const DfgTable& table, T n_dot_v, T perceptual_roughness) {
+FACET_INLINE SpecularAlbedo<T> LookupDfg(const DfgTable& table, T n_dot_v, T perceptual_roughness) {
   const float last = static_cast<float>(DfgTable::kColumns - 1);
   const TablePosition<T> row = DfgRow(perceptual_roughness);
   const TablePosition<T> column = PositionInTable(Sqrt(Sqrt(Max(n_dot_v, T(0.0f)))) * T(last), last);
@@ -61,7 +61,7 @@ HWY_INLINE SpecularAlbedo<T> LookupDfg(const DfgTable& table, T n_dot_v, T perce
 }
 
 template <class T>
-HWY_INLINE SpecularAlbedo<T> LookupDfgAverage(const DfgTable& table, T perceptual_roughness) {
+FACET_INLINE SpecularAlbedo<T> LookupDfgAverage(const DfgTable& table, T perceptual_roughness) {
   const TablePosition<T> row = DfgRow(perceptual_roughness);
   const Vec4<T> p = FetchVec4<T>(table.average, row.index * IntOf<T>(2));  // A and B of this row and the next
   return {Mix(p.x, p.z, row.fraction), Mix(p.y, p.w, row.fraction)};
@@ -69,14 +69,14 @@ HWY_INLINE SpecularAlbedo<T> LookupDfgAverage(const DfgTable& table, T perceptua
 
 // The row of an AnisotropicDfgTable, and the layer within it.
 template <class T>
-HWY_INLINE TablePosition<T> AnisotropicDfgRow(T perceptual_roughness) {
+FACET_INLINE TablePosition<T> AnisotropicDfgRow(T perceptual_roughness) {
   using Table = AnisotropicDfgTable;
   const T root = Sqrt(Max(perceptual_roughness, T(0.0f)));
   return PositionInTable((root - T(Table::kFirstRow)) * T((Table::kRows - 1) / (1.0f - Table::kFirstRow)),
                          static_cast<float>(Table::kRows - 1));
 }
 template <class T>
-HWY_INLINE TablePosition<T> AnisotropicDfgLayer(T strength) {
+FACET_INLINE TablePosition<T> AnisotropicDfgLayer(T strength) {
   const float last = static_cast<float>(AnisotropicDfgTable::kLayers - 1);
   return PositionInTable(strength * T(last), last);
 }
@@ -113,8 +113,8 @@ HWY_NOINLINE SpecularAlbedo<T> LookupAnisotropicDfg(const AnisotropicDfgTable& t
 }
 
 template <class T>
-HWY_INLINE SpecularAlbedo<T> LookupAnisotropicDfgAverage(const AnisotropicDfgTable& table, T perceptual_roughness,
-                                                         T strength) {
+FACET_INLINE SpecularAlbedo<T> LookupAnisotropicDfgAverage(const AnisotropicDfgTable& table, T perceptual_roughness,
+                                                           T strength) {
   const TablePosition<T> row = AnisotropicDfgRow(perceptual_roughness), layer = AnisotropicDfgLayer(strength);
   const IntOf<T> index = (row.index * IntOf<T>(AnisotropicDfgTable::kLayers) + layer.index) * IntOf<T>(2);
   // A and B of this layer and the next, in this row and the next.
@@ -126,7 +126,7 @@ HWY_INLINE SpecularAlbedo<T> LookupAnisotropicDfgAverage(const AnisotropicDfgTab
 
 // E of sheen, which may exceed 1.
 template <class T>
-HWY_INLINE T LookupSheen(const SheenTable& table, T n_dot_v, T perceptual_roughness) {
+FACET_INLINE T LookupSheen(const SheenTable& table, T n_dot_v, T perceptual_roughness) {
   const auto position = [](T x, float first, int count) HWY_ATTR {
     const float last = static_cast<float>(count - 1);
     return PositionInTable((Sqrt(Sqrt(Max(x, T(0.0f)))) - T(first)) * T(last / (1.0f - first)), last);
@@ -142,26 +142,26 @@ HWY_INLINE T LookupSheen(const SheenTable& table, T n_dot_v, T perceptual_roughn
 template <class T>
 class LightingView {
  public:
-  HWY_INLINE explicit LightingView(const LightingData& data) : data_(&data) {}
+  FACET_INLINE explicit LightingView(const LightingData& data) : data_(&data) {}
 
-  HWY_INLINE int LightCount() const { return data_->light_count; }
-  HWY_INLINE LightSample<T> Sample(int light, Vec3<T> position) const {
+  FACET_INLINE int LightCount() const { return data_->light_count; }
+  FACET_INLINE LightSample<T> Sample(int light, Vec3<T> position) const {
     return SamplePunctual(data_->lights[light], position);
   }
-  HWY_INLINE bool HasEnvironment() const { return data_->environment != nullptr; }
-  HWY_INLINE Vec3<T> IrradianceOverPi(Vec3<T> normal) const {
+  FACET_INLINE bool HasEnvironment() const { return data_->environment != nullptr; }
+  FACET_INLINE Vec3<T> IrradianceOverPi(Vec3<T> normal) const {
     return HWY_NAMESPACE::IrradianceOverPi(*data_->environment, ToEnvironment(normal)) *
            T(data_->environment_intensity);
   }
   // Irradiance on a surface facing `normal`.
-  HWY_INLINE Vec3<T> Irradiance(Vec3<T> normal) const { return IrradianceOverPi(normal) * T(kPi); }
-  HWY_INLINE Vec3<T> Prefiltered(Vec3<T> direction, T perceptual_roughness) const {
+  FACET_INLINE Vec3<T> Irradiance(Vec3<T> normal) const { return IrradianceOverPi(normal) * T(kPi); }
+  FACET_INLINE Vec3<T> Prefiltered(Vec3<T> direction, T perceptual_roughness) const {
     return PrefilteredRadiance(*data_->environment, ToEnvironment(direction), perceptual_roughness) *
            T(data_->environment_intensity);
   }
   // The same of a lobe whose square of alpha is greater by `footprint_alpha2`. Between levels the mixture is wider than
   // the lobe to begin with, often by more than the footprint.
-  HWY_INLINE Vec3<T> Prefiltered(Vec3<T> direction, T perceptual_roughness, T footprint_alpha2) const {
+  FACET_INLINE Vec3<T> Prefiltered(Vec3<T> direction, T perceptual_roughness, T footprint_alpha2) const {
     const MaskOf<T> wider = IsWidened(perceptual_roughness, footprint_alpha2);
     T roughness = perceptual_roughness;
     if (Any(wider)) {
@@ -171,37 +171,37 @@ class LightingView {
     return Prefiltered(direction, roughness);
   }
   // The environment as a background: from its image if that was kept (keep_image), else from its sharpest map.
-  HWY_INLINE Vec3<T> Background(Vec3<T> direction) const {
+  FACET_INLINE Vec3<T> Background(Vec3<T> direction) const {
     return SharpRadiance(*data_->environment, ToEnvironment(direction)) * T(data_->environment_intensity);
   }
-  HWY_INLINE SpecularAlbedo<T> Dfg(T n_dot_v, T perceptual_roughness) const {
+  FACET_INLINE SpecularAlbedo<T> Dfg(T n_dot_v, T perceptual_roughness) const {
     return LookupDfg(*data_->dfg, n_dot_v, perceptual_roughness);
   }
   // The same where masking and shadowing are Schlick's, for `alpha` as the model "lecture" has it.
-  HWY_INLINE SpecularAlbedo<T> SchlickDfg(LectureAlpha alpha, T n_dot_v, T perceptual_roughness) const {
+  FACET_INLINE SpecularAlbedo<T> SchlickDfg(LectureAlpha alpha, T n_dot_v, T perceptual_roughness) const {
     return LookupDfg(*data_->schlick_dfg[static_cast<std::size_t>(alpha)], n_dot_v, perceptual_roughness);
   }
-  HWY_INLINE SpecularAlbedo<T> DfgAverage(T perceptual_roughness) const {
+  FACET_INLINE SpecularAlbedo<T> DfgAverage(T perceptual_roughness) const {
     return LookupDfgAverage(*data_->dfg, perceptual_roughness);
   }
   // Only where a material is anisotropic.
-  HWY_INLINE SpecularAlbedo<T> AnisotropicDfg(T n_dot_v, T t_dot_v, T perceptual_roughness, T strength) const {
+  FACET_INLINE SpecularAlbedo<T> AnisotropicDfg(T n_dot_v, T t_dot_v, T perceptual_roughness, T strength) const {
     return LookupAnisotropicDfg(*data_->anisotropic_dfg, n_dot_v, t_dot_v, perceptual_roughness, strength);
   }
-  HWY_INLINE SpecularAlbedo<T> AnisotropicDfgAverage(T perceptual_roughness, T strength) const {
+  FACET_INLINE SpecularAlbedo<T> AnisotropicDfgAverage(T perceptual_roughness, T strength) const {
     return LookupAnisotropicDfgAverage(*data_->anisotropic_dfg, perceptual_roughness, strength);
   }
   // Of the sheen lobe with colour 1; may exceed 1. Only where a material has sheen.
-  HWY_INLINE T SheenAlbedo(T n_dot_v, T perceptual_roughness) const {
+  FACET_INLINE T SheenAlbedo(T n_dot_v, T perceptual_roughness) const {
     return LookupSheen(*data_->sheen, n_dot_v, perceptual_roughness);
   }
   // The same of Filament's fibres.
-  HWY_INLINE T ClothAlbedo(T n_dot_v, T perceptual_roughness) const {
+  FACET_INLINE T ClothAlbedo(T n_dot_v, T perceptual_roughness) const {
     return LookupSheen(*data_->cloth, n_dot_v, perceptual_roughness);
   }
 
  private:
-  HWY_INLINE Vec3<T> ToEnvironment(Vec3<T> d) const {
+  FACET_INLINE Vec3<T> ToEnvironment(Vec3<T> d) const {
     const float* m = data_->environment_from_world;
     return {T(m[0]) * d.x + T(m[1]) * d.y + T(m[2]) * d.z, T(m[3]) * d.x + T(m[4]) * d.y + T(m[5]) * d.z,
             T(m[6]) * d.x + T(m[7]) * d.y + T(m[8]) * d.z};

@@ -17,7 +17,7 @@ namespace HWY_NAMESPACE {
 
 // Maps a direction of any length to [0, 1]^2. Zero is mapped to the centre.
 template <class T>
-HWY_INLINE Vec2<T> OctahedronFromDirection(Vec3<T> d) {
+FACET_INLINE Vec2<T> OctahedronFromDirection(Vec3<T> d) {
   const T norm = Abs(d.x) + Abs(d.y) + Abs(d.z);
   const T scale = T(1.0f) / Max(norm, T(1e-30f));
   const T x = d.x * scale;
@@ -30,7 +30,7 @@ HWY_INLINE Vec2<T> OctahedronFromDirection(Vec3<T> d) {
 
 // The inverse mapping; returns a unit vector.
 template <class T>
-HWY_INLINE Vec3<T> DirectionFromOctahedron(Vec2<T> uv) {
+FACET_INLINE Vec3<T> DirectionFromOctahedron(Vec2<T> uv) {
   const T x = uv.x * T(2.0f) - T(1.0f);
   const T z = uv.y * T(2.0f) - T(1.0f);
   const T y = T(1.0f) - Abs(x) - Abs(z);
@@ -44,7 +44,7 @@ HWY_INLINE Vec3<T> DirectionFromOctahedron(Vec2<T> uv) {
 // is the distance between rows and `offset` the index of the first texel, both in floats. `last`, `row` and `offset`
 // may differ between lanes.
 template <class T>
-HWY_INLINE Vec3<T> SampleTexels(const float* texels, T x, T y, T last, IntOf<T> row, IntOf<T> offset) {
+FACET_INLINE Vec3<T> SampleTexels(const float* texels, T x, T y, T last, IntOf<T> row, IntOf<T> offset) {
   const T x0 = Min(Floor(x), last);
   const T y0 = Min(Floor(y), last);
   const T fx = x - x0;
@@ -58,7 +58,7 @@ HWY_INLINE Vec3<T> SampleTexels(const float* texels, T x, T y, T last, IntOf<T> 
 
 // Looks up a map of `size` x `size` cells with texels at the nodes, at uv in [0, 1]^2.
 template <class T>
-HWY_INLINE Vec3<T> SampleOctahedron(const float* texels, T size, IntOf<T> row, IntOf<T> offset, Vec2<T> uv) {
+FACET_INLINE Vec3<T> SampleOctahedron(const float* texels, T size, IntOf<T> row, IntOf<T> offset, Vec2<T> uv) {
   return SampleTexels<T>(texels, Clamp(uv.x * size, T(0.0f), size), Clamp(uv.y * size, T(0.0f), size),
                          size - T(1.0f), row, offset);
 }

@@ -31,7 +31,7 @@ namespace facet {
 namespace HWY_NAMESPACE {
 
 template <class T, class Number>
-HWY_INLINE T IntegrateSheen(const SheenColumn<Number>& column, T roughness) {
+FACET_INLINE T IntegrateSheen(const SheenColumn<Number>& column, T roughness) {
   const T alpha = AlphaFromPerceptualRoughness(roughness), inverse_alpha = T(1.0f) / alpha, n_dot_v(column.n_dot_v);
   const CharlieMasking<T> masking(alpha);
   const T one_and_lambda_of_view = T(1.0f) + masking.Lambda(n_dot_v);
@@ -49,7 +49,7 @@ HWY_INLINE T IntegrateSheen(const SheenColumn<Number>& column, T roughness) {
 
 // The same of Filament's fibres: D of Charlie, V of Neubelt.
 template <class T, class Number>
-HWY_INLINE T IntegrateCloth(const SheenColumn<Number>& column, T roughness) {
+FACET_INLINE T IntegrateCloth(const SheenColumn<Number>& column, T roughness) {
   const T inverse_alpha = T(1.0f) / AlphaFromPerceptualRoughness(roughness), n_dot_v(column.n_dot_v);
   T sum = T(0.0f);
   for (int i = 0; i < column.kPolar; ++i) {

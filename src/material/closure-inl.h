@@ -47,7 +47,7 @@ inline constexpr MaterialFeatures kCoreLobes = kDiffuseLobe, kAllLobes = kDiffus
 template <class T>
 struct MaterialInputs {
   // Each member on its own: clearing the whole as one block would cost every packet more than a hundred instructions.
-  HWY_INLINE MaterialInputs() {}
+  FACET_INLINE MaterialInputs() {}
 
   Vec3<T> base_color{};    // clamped to 1
   T alpha_coverage{};      // not read here
@@ -98,7 +98,7 @@ struct Closure {
   TransmissionLobe<T> transmission;
 
   template <class Lighting>
-  HWY_INLINE Closure(const MaterialInputs<T>& in, const Vec3<T>& view, const Lighting& lighting)
+  FACET_INLINE Closure(const MaterialInputs<T>& in, const Vec3<T>& view, const Lighting& lighting)
       : at{in.normal, view, Clamp(Dot(in.normal, view), T(kMinNDotV), T(1.0f))},
         lobes(in.lobes),
         microfacets(DrawnRoughness(in.perceptual_roughness, in.footprint_alpha2)) {
@@ -131,19 +131,19 @@ struct Closure {
     }
   }
 
-  HWY_INLINE bool Has(MaterialFeatures lobe) const { return (kPossible & lobe) != 0 && (lobes & lobe) != 0; }
+  FACET_INLINE bool Has(MaterialFeatures lobe) const { return (kPossible & lobe) != 0 && (lobes & lobe) != 0; }
 
   // The specular lobe's albedo for light from (or to) a direction. `cosine`: its cosine with the normal.
   template <class Lighting>
-  HWY_INLINE SpecularAlbedo<T> Albedo(const Vec3<T>& direction, T cosine, const Lighting& lighting) const {
+  FACET_INLINE SpecularAlbedo<T> Albedo(const Vec3<T>& direction, T cosine, const Lighting& lighting) const {
     return Has(kAnisotropy) ? anisotropic.Albedo(direction, cosine, lighting)
                             : microfacets.Albedo(direction, cosine, lighting);
   }
 
  private:
   template <class Lighting>
-  HWY_INLINE SpecularLobe<T> MakeSpecular(const MaterialInputs<T>& in, const Vec3<T>& base, T metallic,
-                                          const Lighting& lighting) const {
+  FACET_INLINE SpecularLobe<T> MakeSpecular(const MaterialInputs<T>& in, const Vec3<T>& base, T metallic,
+                                            const Lighting& lighting) const {
     constexpr float kF0 = kDielectricF0;
     Interface<T> dielectric{{T(kF0), T(kF0), T(kF0)}, T(1.0f)};
     if (Has(kSpecular | kIor)) dielectric = in.dielectric;
@@ -163,13 +163,13 @@ struct Closure {
 };
 
 template <class T, MaterialFeatures kPossible = kAllLobes, class Lighting>
-HWY_INLINE Closure<T, kPossible> MakeClosure(const MaterialInputs<T>& in, Vec3<T> view, const Lighting& lighting) {
+FACET_INLINE Closure<T, kPossible> MakeClosure(const MaterialInputs<T>& in, Vec3<T> view, const Lighting& lighting) {
   return Closure<T, kPossible>(in, view, lighting);
 }
 
 // The BSDF times the cosine with the normal, in 1/steradian, for light from `direction` (unit).
 template <class T, MaterialFeatures kPossible, class Lighting>
-HWY_INLINE Vec3<T> EvaluateClosure(const Closure<T, kPossible>& c, Vec3<T> direction, const Lighting& lighting) {
+FACET_INLINE Vec3<T> EvaluateClosure(const Closure<T, kPossible>& c, Vec3<T> direction, const Lighting& lighting) {
   const T n_dot_l = Dot(c.at.normal, direction);
   const Incidence<T> from = IncidenceFrom(c.at, direction);
   const SpecularAlbedo<T> light_albedo = c.Albedo(direction, from.n_dot_l, lighting);
@@ -197,8 +197,8 @@ HWY_INLINE Vec3<T> EvaluateClosure(const Closure<T, kPossible>& c, Vec3<T> direc
 // The radiance of the environment that the material scatters towards the view, without occlusion. `in`: of the closure,
 // whose roughness is not clamped.
 template <class T, MaterialFeatures kPossible, class Lighting>
-HWY_INLINE Vec3<T> EvaluateEnvironment(const Closure<T, kPossible>& c, const MaterialInputs<T>& in,
-                                       const Lighting& lighting) {
+FACET_INLINE Vec3<T> EvaluateEnvironment(const Closure<T, kPossible>& c, const MaterialInputs<T>& in,
+                                         const Lighting& lighting) {
   const Vec3<T> prefiltered =
       c.Has(kAnisotropy)
           ? c.anisotropic.Prefiltered(c.at, WidenedRoughness(in.perceptual_roughness, in.footprint_alpha2), lighting)
@@ -218,21 +218,21 @@ HWY_INLINE Vec3<T> EvaluateEnvironment(const Closure<T, kPossible>& c, const Mat
 // The emission of the base that the clear coat lets pass. (Sheen scatters light that comes from outside; by the texts
 // of the extensions it does not dim emission.)
 template <class T, MaterialFeatures kPossible>
-HWY_INLINE Vec3<T> EmissionThroughLayers(const Closure<T, kPossible>& c, const MaterialInputs<T>& in) {
+FACET_INLINE Vec3<T> EmissionThroughLayers(const Closure<T, kPossible>& c, const MaterialInputs<T>& in) {
   return c.Has(kClearcoat) ? in.emissive * c.clearcoat.EnergyLeft() : in.emissive;
 }
 
 // The transmission's part of the BSDF times the cosine, for light from behind the surface.
 template <class T, MaterialFeatures kPossible, class Lighting>
-HWY_INLINE Vec3<T> EvaluateTransmission(const Closure<T, kPossible>& c, Vec3<T> direction, const Lighting& lighting) {
+FACET_INLINE Vec3<T> EvaluateTransmission(const Closure<T, kPossible>& c, Vec3<T> direction, const Lighting& lighting) {
   return c.transmission.color * c.transmission.Direct(c.at, direction, lighting);
 }
 
 // Radiance towards the eye, except for what is seen through the surface. `closure`: of `in`; `position`: relative to
 // the eye, world axes.
 template <class T, MaterialFeatures kPossible, class Lighting>
-HWY_INLINE Vec3<T> ShadeClosure(const Closure<T, kPossible>& closure, const MaterialInputs<T>& in, Vec3<T> position,
-                                const Lighting& lighting) {
+FACET_INLINE Vec3<T> ShadeClosure(const Closure<T, kPossible>& closure, const MaterialInputs<T>& in, Vec3<T> position,
+                                  const Lighting& lighting) {
   Vec3<T> radiance = EmissionThroughLayers(closure, in);
   if (lighting.HasEnvironment()) radiance += EvaluateEnvironment(closure, in, lighting) * in.occlusion;
   const int light_count = lighting.LightCount();
@@ -248,7 +248,8 @@ HWY_INLINE Vec3<T> ShadeClosure(const Closure<T, kPossible>& closure, const Mate
 
 // `view`: unit, from the surface to the eye.
 template <class T, MaterialFeatures kPossible = kAllLobes, class Lighting>
-HWY_INLINE Vec3<T> ShadeClosure(const MaterialInputs<T>& in, Vec3<T> view, Vec3<T> position, const Lighting& lighting) {
+FACET_INLINE Vec3<T> ShadeClosure(const MaterialInputs<T>& in, Vec3<T> view, Vec3<T> position,
+                                  const Lighting& lighting) {
   return ShadeClosure(Closure<T, kPossible>(in, view, lighting), in, position, lighting);
 }
 

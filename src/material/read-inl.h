@@ -34,7 +34,7 @@ struct UvFootprint {
 // The surface's normal, perturbed by a texture in tangent space. As MikkTSpace demands, the bitangent is computed per
 // fragment from the interpolated vectors, without normalising them.
 template <class T, class Source>
-HWY_INLINE Vec3<T> MappedNormal(const Source& from, Slot slot, float normal_scale) {
+FACET_INLINE Vec3<T> MappedNormal(const Source& from, Slot slot, float normal_scale) {
   if (!from.Has(BitOf(slot))) return from.Normal();
   const Vec4<T> texel = from.template Read<kRgb>(slot);
   const T scale(normal_scale);
@@ -47,7 +47,7 @@ HWY_INLINE Vec3<T> MappedNormal(const Source& from, Slot slot, float normal_scal
 
 // For materials that emit.
 template <class T, class Source>
-HWY_INLINE Vec3<T> ReadEmission(const Source& from) {
+FACET_INLINE Vec3<T> ReadEmission(const Source& from) {
   const float* const factor = from.Factors().emissive;
   Vec3<T> e{T(factor[0]), T(factor[1]), T(factor[2])};
   if (from.Has(BitOf(Slot::Emissive))) e = e * Xyz(from.template Read<kRgb>(Slot::Emissive));
@@ -56,20 +56,20 @@ HWY_INLINE Vec3<T> ReadEmission(const Source& from) {
 
 // A factor times one channel of a texture.
 template <int kChannel, class T, class Source>
-HWY_INLINE T ReadFactor(const Source& from, float factor, Slot slot) {
+FACET_INLINE T ReadFactor(const Source& from, float factor, Slot slot) {
   if (!from.Has(BitOf(slot))) return T(factor);
   const Vec4<T> texel = from.template Read<kChannel>(slot);
   return T(factor) * (kChannel == kR ? texel.x : kChannel == kG ? texel.y : kChannel == kB ? texel.z : texel.w);
 }
 template <class T, class Source>
-HWY_INLINE Vec3<T> ReadColor(const Source& from, const float (&factor)[3], Slot slot) {
+FACET_INLINE Vec3<T> ReadColor(const Source& from, const float (&factor)[3], Slot slot) {
   const Vec3<T> color{T(factor[0]), T(factor[1]), T(factor[2])};
   return from.Has(BitOf(slot)) ? color * Xyz(from.template Read<kRgb>(slot)) : color;
 }
 
 // The dielectric's reflectance (KHR_materials_specular, KHR_materials_ior).
 template <class T, class Source>
-HWY_INLINE Interface<T> ReadDielectric(const Source& from) {
+FACET_INLINE Interface<T> ReadDielectric(const Source& from) {
   const MaterialFactors& f = from.Factors();
   const T specular = ReadFactor<kA, T>(from, f.specular, Slot::Specular), one(1.0f), f0(f.dielectric_f0);
   const Vec3<T> color = ReadColor<T>(from, f.specular_color, Slot::SpecularColor);
@@ -78,7 +78,7 @@ HWY_INLINE Interface<T> ReadDielectric(const Source& from) {
 }
 
 template <class T, class Source>
-HWY_INLINE ClearcoatInputs<T> ReadClearcoat(const Source& from) {
+FACET_INLINE ClearcoatInputs<T> ReadClearcoat(const Source& from) {
   const MaterialFactors& f = from.Factors();
   return {ReadFactor<kR, T>(from, f.clearcoat, Slot::Clearcoat),
           ReadFactor<kG, T>(from, f.clearcoat_perceptual_roughness, Slot::ClearcoatRoughness),
@@ -86,7 +86,7 @@ HWY_INLINE ClearcoatInputs<T> ReadClearcoat(const Source& from) {
 }
 
 template <class T, class Source>
-HWY_INLINE FilmInputs<T> ReadFilm(const Source& from) {
+FACET_INLINE FilmInputs<T> ReadFilm(const Source& from) {
   const MaterialFactors& f = from.Factors();
   T thickness(f.film_thickness_maximum_nm);
   if (from.Has(BitOf(Slot::IridescenceThickness))) {
@@ -98,7 +98,7 @@ HWY_INLINE FilmInputs<T> ReadFilm(const Source& from) {
 // The direction (x, y) of tangent space, perpendicular to the shading normal: unit. Where the surface has no tangent,
 // any direction takes its place.
 template <class T, class Source>
-HWY_INLINE Vec3<T> TurnedTangent(const Source& from, const Vec3<T>& normal, T x, T y) {
+FACET_INLINE Vec3<T> TurnedTangent(const Source& from, const Vec3<T>& normal, T x, T y) {
   const Vec3<T> along = Xyz(from.Tangent());
   const Vec3<T> across = Cross(from.InterpolatedNormal(), along) * from.Tangent().w;
   const Vec3<T> direction = along * x + across * y;
@@ -111,7 +111,7 @@ HWY_INLINE Vec3<T> TurnedTangent(const Source& from, const Vec3<T>& normal, T x,
 
 // `normal`: the shading normal, unit.
 template <class T, class Source>
-HWY_INLINE AnisotropyInputs<T> ReadAnisotropy(const Source& from, const Vec3<T>& normal) {
+FACET_INLINE AnisotropyInputs<T> ReadAnisotropy(const Source& from, const Vec3<T>& normal) {
   const MaterialFactors& f = from.Factors();
   T x(f.anisotropy_direction[0]), y(f.anisotropy_direction[1]), strength(f.anisotropy);
   if (from.Has(BitOf(Slot::Anisotropy))) {
@@ -127,7 +127,7 @@ HWY_INLINE AnisotropyInputs<T> ReadAnisotropy(const Source& from, const Vec3<T>&
 }
 
 template <class T, class Source>
-HWY_INLINE VolumeInputs<T> ReadVolume(const Source& from) {
+FACET_INLINE VolumeInputs<T> ReadVolume(const Source& from) {
   const MaterialFactors& f = from.Factors();
   const T thickness = ReadFactor<kG, T>(from, f.thickness, Slot::Thickness) * from.MetresPerUnit();
   return {Min(thickness, T(1e30f)), {T(f.absorption[0]), T(f.absorption[1]), T(f.absorption[2])}};
@@ -135,7 +135,7 @@ HWY_INLINE VolumeInputs<T> ReadVolume(const Source& from) {
 
 // `base`: the base colour with its alpha. `features`: of the material. `kPossible`: those of its lobes that are read.
 template <class T, MaterialFeatures kPossible = kAllLobes, class Source>
-HWY_INLINE MaterialInputs<T> ReadInputs(const Source& from, const Vec4<T>& base, MaterialFeatures features) {
+FACET_INLINE MaterialInputs<T> ReadInputs(const Source& from, const Vec4<T>& base, MaterialFeatures features) {
   const MaterialFactors& f = from.Factors();
   T metallic(f.metallic), perceptual_roughness(f.perceptual_roughness), occlusion(1.0f);
   if (from.Has(BitOf(Slot::MetallicRoughness))) {
@@ -179,7 +179,7 @@ HWY_INLINE MaterialInputs<T> ReadInputs(const Source& from, const Vec4<T>& base,
 
 // Replaces what the specular-glossiness model reads otherwise: a dielectric whose F0 is a colour.
 template <class T, class Source>
-HWY_INLINE void SetSpecularGlossiness(const Source& from, MaterialInputs<T>& in) {
+FACET_INLINE void SetSpecularGlossiness(const Source& from, MaterialInputs<T>& in) {
   const MaterialFactors& f = from.Factors();
   const float* const specular = f.specular_glossiness_specular;
   Vec3<T> f0{T(specular[0]), T(specular[1]), T(specular[2])};

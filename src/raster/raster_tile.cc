@@ -20,7 +20,7 @@ struct BlockRange {
   int first_row, last_row;  // pixels within the tile
   bool small;               // no larger than a block, so that it covers no block completely
 
-  HWY_INLINE BlockRange(const ScreenTriangle& r, const TileBuffers& tile) {
+  FACET_INLINE BlockRange(const ScreenTriangle& r, const TileBuffers& tile) {
     const int min_x = LeastOf(r.x_fx8), max_x = GreatestOf(r.x_fx8);
     const int min_y = LeastOf(r.y_fx8), max_y = GreatestOf(r.y_fx8);
     const int last_column_px = std::min((max_x >> kSubpixelBits) - tile.x0, tile.width - 1);
@@ -37,8 +37,8 @@ struct BlockRange {
 // VisitCoverage (below) for a small triangle whose covered samples are known (ScreenTriangle::covered): calls
 // visit(offset, sample, depth) for each sample that passes the depth test, and end_pixel(x, y) after those of a pixel.
 template <bool kOrEqual, int kSamples, class Visit, class EndPixel>
-HWY_INLINE void VisitKnownCoverage(const ScreenTriangle& r, const TileBuffers& tile, const SampleReach& reach,
-                                   const Visit& visit, const EndPixel& end_pixel) {
+FACET_INLINE void VisitKnownCoverage(const ScreenTriangle& r, const TileBuffers& tile, const SampleReach& reach,
+                                     const Visit& visit, const EndPixel& end_pixel) {
   const int samples_a_pixel = tile.Samples<kSamples>();
   const SamplePosition* pattern = SamplePattern(samples_a_pixel);
   const int stride_bits = CoverageSquareOf(samples_a_pixel).stride_bits;
@@ -107,7 +107,7 @@ struct BlockEdges {
 struct TriangleEdges {
   std::int64_t a[3], b[3], c[3];  // of its edge functions, from the image's origin
 
-  HWY_INLINE explicit TriangleEdges(const ScreenTriangle& r) {
+  FACET_INLINE explicit TriangleEdges(const ScreenTriangle& r) {
     for (int i = 0; i < 3; ++i) {
       const int j = i == 2 ? 0 : i + 1;
       const auto edge = MakeEdgeFunction<std::int64_t>(r.x_fx8[i], r.y_fx8[i], r.x_fx8[j], r.y_fx8[j]);
@@ -118,7 +118,7 @@ struct TriangleEdges {
   // Whether a block is outside of one edge, cut by some, or inside of all. An edge function that is nowhere
   // negative in the block becomes 0, which passes everywhere.
   enum class Overlap { None, Part, Whole };
-  HWY_INLINE Overlap InBlock(int x_px, int y_px, BlockEdges& out) const {
+  FACET_INLINE Overlap InBlock(int x_px, int y_px, BlockEdges& out) const {
     constexpr std::int64_t kReach = kBlockSize * kSampleGrid - 1;
     Overlap overlap = Overlap::Whole;
     for (int i = 0; i < 3; ++i) {
@@ -139,7 +139,7 @@ struct TriangleEdges {
 
   // The same without the test, for triangles that are no larger than a block and whose bounding box touches this one:
   // their edge functions fit 32 bits anywhere in it.
-  HWY_INLINE Overlap AcrossBlock(int x_px, int y_px, BlockEdges& out) const {
+  FACET_INLINE Overlap AcrossBlock(int x_px, int y_px, BlockEdges& out) const {
     for (int i = 0; i < 3; ++i) {
       out.a[i] = static_cast<std::int32_t>(a[i]);
       out.b[i] = static_cast<std::int32_t>(b[i]);
@@ -150,7 +150,7 @@ struct TriangleEdges {
 
   // Edge function i at a block's corner, divided by 16 and rounded down. Nothing is lost: samples lie on sixteenths of
   // a pixel, which are multiples of 16 in fx8.
-  HWY_INLINE std::int64_t Corner(int i, int x_px, int y_px) const {
+  FACET_INLINE std::int64_t Corner(int i, int x_px, int y_px) const {
     return (a[i] * (std::int64_t{x_px} << kSubpixelBits) + b[i] * (std::int64_t{y_px} << kSubpixelBits) +
             c[i]) >>
            4;
@@ -163,8 +163,8 @@ static_assert(kSubpixelScale / kSampleGrid == 16, "the shift in Corner");
 // test (nearer, or with kOrEqual not farther). end_group(block_x, block_y, first pixel) comes after all samples of a
 // group, end_block(block_x, block_y, wholly covered) after all groups of a block; block_x and block_y in blocks.
 template <bool kOrEqual, int kSamples, class Visit, class EndGroup, class EndBlock>
-HWY_INLINE void VisitCoverage(const ScreenTriangle& r, const TileBuffers& tile, const Visit& visit,
-                              const EndGroup& end_group, const EndBlock& end_block) {
+FACET_INLINE void VisitCoverage(const ScreenTriangle& r, const TileBuffers& tile, const Visit& visit,
+                                const EndGroup& end_group, const EndBlock& end_block) {
   const int samples = tile.Samples<kSamples>();
   const SamplePosition* pattern = SamplePattern(samples);
   const TriangleEdges edges(r);
@@ -212,7 +212,7 @@ HWY_INLINE void VisitCoverage(const ScreenTriangle& r, const TileBuffers& tile, 
 }
 
 template <int kSamples>
-HWY_INLINE void Draw(const TileTriangles& triangles, TileBuffers& tile) {
+FACET_INLINE void Draw(const TileTriangles& triangles, TileBuffers& tile) {
   constexpr std::size_t kAhead = 8;  // records to prefetch ahead: only those of one chunk are in order in memory
   const SampleReach reach = ReachOf(tile.Samples<kSamples>());
   for (std::size_t t = 0; t < triangles.count; ++t) {
@@ -256,7 +256,7 @@ void RasterOpaqueKernel(const TileTriangles& triangles, TileBuffers& tile) {
 }
 
 template <bool kOrEqual, int kSamples>
-HWY_INLINE void Collect(const TileTriangles& triangles, const TileBuffers& tile, FragmentList& out) {
+FACET_INLINE void Collect(const TileTriangles& triangles, const TileBuffers& tile, FragmentList& out) {
   const SampleReach reach = ReachOf(tile.Samples<kSamples>());
   for (std::size_t t = 0; t < triangles.count; ++t) {
     if (triangles.records[t]->covered != 0) {

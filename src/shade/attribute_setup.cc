@@ -27,8 +27,8 @@ struct Double {
   using Raw = hn::Vec<DoubleTag>;
   Raw raw;
   Double() = default;
-  HWY_INLINE Double(Raw r) : raw(r) {}                          // NOLINT: as Float
-  HWY_INLINE Double(double d) : raw(hn::Set(DoubleTag(), d)) {}  // NOLINT
+  FACET_INLINE Double(Raw r) : raw(r) {}                           // NOLINT: as Float
+  FACET_INLINE Double(double d) : raw(hn::Set(DoubleTag(), d)) {}  // NOLINT
 };
 struct DoubleMask {
   hn::Mask<DoubleTag> raw;
@@ -38,21 +38,21 @@ struct LaneTraits<Double> {
   using MaskType = DoubleMask;
 };
 
-HWY_INLINE Double operator+(Double a, Double b) { return hn::Add(a.raw, b.raw); }
-HWY_INLINE Double operator-(Double a, Double b) { return hn::Sub(a.raw, b.raw); }
-HWY_INLINE Double operator*(Double a, Double b) { return hn::Mul(a.raw, b.raw); }
-HWY_INLINE Double operator/(Double a, Double b) { return hn::Div(a.raw, b.raw); }
-HWY_INLINE Double operator-(Double a) { return hn::Neg(a.raw); }
-HWY_INLINE DoubleMask operator<(Double a, Double b) { return {hn::Lt(a.raw, b.raw)}; }
-HWY_INLINE DoubleMask operator&(DoubleMask a, DoubleMask b) { return {hn::And(a.raw, b.raw)}; }
-HWY_INLINE bool All(DoubleMask a) { return hn::AllTrue(DoubleTag(), a.raw); }
-HWY_INLINE Double Abs(Double a) { return hn::Abs(a.raw); }
-HWY_INLINE Double Sqrt(Double a) { return hn::Sqrt(a.raw); }
-HWY_INLINE Double Select(DoubleMask m, Double a, Double b) { return hn::IfThenElse(m.raw, a.raw, b.raw); }
-HWY_INLINE Double Max(Double a, Double b) { return Select(b < a, a, b); }  // like Float's: if a is NaN, returns b
-HWY_INLINE Double Load(const double* p) { return hn::LoadU(DoubleTag(), p); }
-HWY_INLINE Double LoadPromoted(const float* p) { return hn::PromoteTo(DoubleTag(), hn::LoadU(HalfTag(), p)); }
-HWY_INLINE void StoreRounded(Double a, float* p) {
+FACET_INLINE Double operator+(Double a, Double b) { return hn::Add(a.raw, b.raw); }
+FACET_INLINE Double operator-(Double a, Double b) { return hn::Sub(a.raw, b.raw); }
+FACET_INLINE Double operator*(Double a, Double b) { return hn::Mul(a.raw, b.raw); }
+FACET_INLINE Double operator/(Double a, Double b) { return hn::Div(a.raw, b.raw); }
+FACET_INLINE Double operator-(Double a) { return hn::Neg(a.raw); }
+FACET_INLINE DoubleMask operator<(Double a, Double b) { return {hn::Lt(a.raw, b.raw)}; }
+FACET_INLINE DoubleMask operator&(DoubleMask a, DoubleMask b) { return {hn::And(a.raw, b.raw)}; }
+FACET_INLINE bool All(DoubleMask a) { return hn::AllTrue(DoubleTag(), a.raw); }
+FACET_INLINE Double Abs(Double a) { return hn::Abs(a.raw); }
+FACET_INLINE Double Sqrt(Double a) { return hn::Sqrt(a.raw); }
+FACET_INLINE Double Select(DoubleMask m, Double a, Double b) { return hn::IfThenElse(m.raw, a.raw, b.raw); }
+FACET_INLINE Double Max(Double a, Double b) { return Select(b < a, a, b); }  // like Float's: if a is NaN, returns b
+FACET_INLINE Double Load(const double* p) { return hn::LoadU(DoubleTag(), p); }
+FACET_INLINE Double LoadPromoted(const float* p) { return hn::PromoteTo(DoubleTag(), hn::LoadU(HalfTag(), p)); }
+FACET_INLINE void StoreRounded(Double a, float* p) {
 #if HWY_TARGET == HWY_SCALAR  // Highway's demotion would clamp to the largest float
   *p = RoundToFloat(hn::GetLane(a.raw));
 #else
@@ -70,10 +70,10 @@ using LaneFloats = float[kMaxDoubles];
 // A three-component attribute of all vertices.
 struct Corners {
   alignas(64) LaneFloats components[9];
-  HWY_INLINE void Set(std::size_t lane, int corner, const float* xyz) {
+  FACET_INLINE void Set(std::size_t lane, int corner, const float* xyz) {
     for (int c = 0; c < 3; ++c) components[3 * corner + c][lane] = xyz[c];
   }
-  HWY_INLINE Point Get(int corner) const {
+  FACET_INLINE Point Get(int corner) const {
     const LaneFloats* n = components + 3 * corner;
     return {LoadPromoted(n[0]), LoadPromoted(n[1]), LoadPromoted(n[2])};
   }
@@ -84,14 +84,14 @@ struct AttributeLanes {
   static constexpr int kCount = (AttributeLayout::kColors + 3) / 4 * 4;
   alignas(64) LaneFloats components[kCount] = {};
 
-  HWY_INLINE void Put(int component, Double value) { StoreRounded(value, components[component]); }
-  HWY_INLINE void Put(int component, const Point& p) {
+  FACET_INLINE void Put(int component, Double value) { StoreRounded(value, components[component]); }
+  FACET_INLINE void Put(int component, const Point& p) {
     Put(component, p.x), Put(component + 1, p.y), Put(component + 2, p.z);
   }
 
   // Transposes the first `count` components of `lanes` triangles into their setups. Writes four at a time, so up to
   // three more may be written.
-  HWY_INLINE void WriteTo(float* setups, std::size_t stride, std::size_t lanes, int count) const {
+  FACET_INLINE void WriteTo(float* setups, std::size_t stride, std::size_t lanes, int count) const {
     alignas(64) float fours[4 * kMaxDoubles];
     const HalfTag half;
     for (int i = 0; i < count; i += 4) {
@@ -104,12 +104,12 @@ struct AttributeLanes {
 
 // --- The arithmetic -------------------------------------------------------------------------------------------------
 
-HWY_INLINE Double HomogeneousRow(const glm::dvec4& row, const Point& p) {
+FACET_INLINE Double HomogeneousRow(const glm::dvec4& row, const Point& p) {
   return (Double(row.x) * p.x + Double(row.y) * p.y) + (Double(row.z) * p.z + Double(row.w));
 }
 
 // `w`: 1 for positions, 0 for directions.
-HWY_INLINE Point Transform(const glm::dmat3x4& rows, const Point& p, double w) {
+FACET_INLINE Point Transform(const glm::dmat3x4& rows, const Point& p, double w) {
   const auto row = [&](int i) HWY_ATTR {
     const glm::dvec4& r = rows[i];
     return p.x * Double(r.x) + p.y * Double(r.y) + p.z * Double(r.z) + Double(w * r.w);
@@ -117,7 +117,7 @@ HWY_INLINE Point Transform(const glm::dmat3x4& rows, const Point& p, double w) {
   return {row(0), row(1), row(2)};
 }
 
-HWY_INLINE Point Transform(const glm::dmat3& m, const Point& p) {
+FACET_INLINE Point Transform(const glm::dmat3& m, const Point& p) {
   const auto row = [&](int i) HWY_ATTR {
     return Double(m[0][i]) * p.x + Double(m[1][i]) * p.y + Double(m[2][i]) * p.z;
   };
@@ -126,7 +126,7 @@ HWY_INLINE Point Transform(const glm::dmat3& m, const Point& p) {
 
 // v / |v|, or fallback() where v has no direction. It is evaluated only if some lane needs it.
 template <class Fallback>
-HWY_INLINE Point UnitOr(const Point& v, const Fallback& fallback) {
+FACET_INLINE Point UnitOr(const Point& v, const Fallback& fallback) {
   const Double length = Sqrt(Dot(v, v));
   const DoubleMask good = (Double(0.0) < length) & (length < Double(HUGE_VAL));
   const Point unit = v / length;
@@ -138,7 +138,7 @@ HWY_INLINE Point UnitOr(const Point& v, const Fallback& fallback) {
 // vertex.
 //
 // Returns the determinant of the planes, 0 if they do not depend on all vertices.
-HWY_INLINE Double PutPlanes(const Point (&h)[3], ScreenTriangleKind kind, AttributeLanes& out) {
+FACET_INLINE Double PutPlanes(const Point (&h)[3], ScreenTriangleKind kind, AttributeLanes& out) {
   Point row[3] = {Cross(h[1], h[2]), Cross(h[2], h[0]), Cross(h[0], h[1])};
   const Double determinant = Dot(row[0], h[0]), zero(0.0);
   const Double sign = Select(determinant < zero, Double(-1.0), Double(1.0));

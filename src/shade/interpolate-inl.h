@@ -32,18 +32,18 @@ struct UniformSetup {
   std::int32_t base;
 };
 template <class T>
-HWY_INLINE Vec4<T> FetchVec4(const float* p, UniformSetup setup) {
+FACET_INLINE Vec4<T> FetchVec4(const float* p, UniformSetup setup) {
   return {T(p[setup.base]), T(p[setup.base + 1]), T(p[setup.base + 2]), T(p[setup.base + 3])};
 }
 
 template <class T>
-HWY_INLINE T Fetch(const float* p, UniformSetup setup) {
+FACET_INLINE T Fetch(const float* p, UniformSetup setup) {
   return T(p[setup.base]);
 }
 
 // `base`: for each lane the index of its setup times the stride, or UniformSetup.
 template <class T, class Base>
-HWY_INLINE Barycentric<T> InterpolationWeights(const float* setups, Base base, T x, T y) {
+FACET_INLINE Barycentric<T> InterpolationWeights(const float* setups, Base base, T x, T y) {
   const float* planes = setups + AttributeLayout::kPlanes;
   T a[3], b[3], e[3];
   for (int i = 0; i < 3; ++i) {
@@ -69,13 +69,13 @@ HWY_INLINE Barycentric<T> InterpolationWeights(const float* setups, Base base, T
 }
 
 template <class T>
-HWY_INLINE T Weigh(const T (&weights)[3], T v0, T v1, T v2) {
+FACET_INLINE T Weigh(const T (&weights)[3], T v0, T v1, T v2) {
   return (weights[0] * v0 + weights[1] * v1) + weights[2] * v2;
 }
 
 // Interpolates a four-component attribute whose vertices are `stride` floats apart, from setups[base + first] on.
 template <class T, class Base>
-HWY_INLINE Vec4<T> InterpolateVec4(const float* setups, Base base, const Barycentric<T>& w, int first, int stride) {
+FACET_INLINE Vec4<T> InterpolateVec4(const float* setups, Base base, const Barycentric<T>& w, int first, int stride) {
   const Vec4<T> p = FetchVec4<T>(setups + first, base), q = FetchVec4<T>(setups + first + stride, base),
                 r = FetchVec4<T>(setups + first + 2 * stride, base);
   return {Weigh(w.b, p.x, q.x, r.x), Weigh(w.b, p.y, q.y, r.y), Weigh(w.b, p.z, q.z, r.z), Weigh(w.b, p.w, q.w, r.w)};
@@ -88,7 +88,7 @@ HWY_INLINE Vec4<T> InterpolateVec4(const float* setups, Base base, const Barycen
 // does not blur cylinders, as the arithmetic mean would (Tokuyoshi and Kaplanyan, 2019, Improved Geometric Specular
 // Antialiasing, whose bound of 0.18 this is): a lobe of one width cannot filter along one axis only.
 template <class T>
-HWY_INLINE T FootprintAlpha2(T normal_sweep, const Vec3<T>& normal, T inverse) {
+FACET_INLINE T FootprintAlpha2(T normal_sweep, const Vec3<T>& normal, T inverse) {
   constexpr float kAlpha2OfSolidAngle = 1.0f / 16.0f, kMost = 0.18f;
   const T zero(0.0f), scale = inverse / Sqrt(Dot(normal, normal));
   const T alpha2 = normal_sweep * T(kAlpha2OfSolidAngle) * scale * scale * scale;
@@ -96,7 +96,7 @@ HWY_INLINE T FootprintAlpha2(T normal_sweep, const Vec3<T>& normal, T inverse) {
 }
 
 template <class T, class Base>
-HWY_INLINE void InterpolateFrom(const ShadeTask& task, Base base, T x, T y, Surface<T>& s) {
+FACET_INLINE void InterpolateFrom(const ShadeTask& task, Base base, T x, T y, Surface<T>& s) {
   const FrameMaterial& material = *task.material;
   const float* setups = task.setups;
   const Barycentric<T> w = InterpolationWeights(setups, base, x, y);
@@ -140,7 +140,7 @@ HWY_INLINE void InterpolateFrom(const ShadeTask& task, Base base, T x, T y, Surf
 // become zero, except for the vertex colour, which becomes 1, and texture coordinates and metres per unit, which are
 // left unchanged.
 template <class T>
-HWY_INLINE void InterpolateSurface(const ShadeTask& task, std::size_t i, Surface<T>& s) {
+FACET_INLINE void InterpolateSurface(const ShadeTask& task, std::size_t i, Surface<T>& s) {
   const T x = Load<T>(task.x + i), y = Load<T>(task.y + i);
   const std::int32_t first = task.setup[i];
   const std::int32_t stride = AttributeLayout::Stride(task.material->uv_slots);
@@ -149,7 +149,7 @@ HWY_INLINE void InterpolateSurface(const ShadeTask& task, std::size_t i, Surface
   InterpolateFrom(task, setup * IntOf<T>(stride), x, y, s);
 }
 template <class T>
-HWY_INLINE Surface<T> InterpolateSurface(const ShadeTask& task, std::size_t i) {
+FACET_INLINE Surface<T> InterpolateSurface(const ShadeTask& task, std::size_t i) {
   Surface<T> s{};
   InterpolateSurface(task, i, s);
   return s;

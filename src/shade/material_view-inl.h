@@ -22,11 +22,11 @@ template <class T>
 class TextureReader {
  public:
   // `surface` must outlive the reader, and must not change until the next ReadAhead().
-  HWY_INLINE explicit TextureReader(const Surface<T>& surface) : s_(surface) {}
+  FACET_INLINE explicit TextureReader(const Surface<T>& surface) : s_(surface) {}
 
   // Computes the taps of the material's first texture, and prefetches them in all textures that share them. Memory is
   // slow, so call this for a new surface some time before it is shaded.
-  HWY_INLINE void ReadAhead(const FrameMaterial& m) {
+  FACET_INLINE void ReadAhead(const FrameMaterial& m) {
     made_for_ = empty_ = nullptr;
     summed_count_ = 0;
     const TexturesOf all(m);
@@ -39,7 +39,7 @@ class TextureReader {
 
   // Samples all textures of the material, those that share taps together. An emission texture that is empty there is
   // not read.
-  HWY_INLINE void ReadAll(const FrameMaterial& m) {
+  FACET_INLINE void ReadAll(const FrameMaterial& m) {
     TexturesOf left(m);
     empty_ = nullptr;
     for (summed_count_ = 0; left.count > 0;) {
@@ -71,7 +71,7 @@ class TextureReader {
   }
 
   template <int kChannels>
-  HWY_INLINE Vec4<T> Read(const BoundTexture& texture) {
+  FACET_INLINE Vec4<T> Read(const BoundTexture& texture) {
     if (&texture == empty_) return {T(0.0f), T(0.0f), T(0.0f), T(0.0f)};
     for (int k = 0; k < summed_count_; ++k) {
       if (summed_[k] == &texture) return ChannelsOf<kChannels>(*texture.data, sums_[k]);
@@ -80,20 +80,20 @@ class TextureReader {
     return ReadTexture<kChannels>(texture, taps_);
   }
 
-  HWY_INLINE bool IsOf(const Surface<T>& surface) const { return &surface == &s_; }
+  FACET_INLINE bool IsOf(const Surface<T>& surface) const { return &surface == &s_; }
 
  private:
   struct TexturesOf {
     const BoundTexture* textures[kMaxSlots];
     int count = 0;
-    HWY_INLINE explicit TexturesOf(const FrameMaterial& m) {
+    FACET_INLINE explicit TexturesOf(const FrameMaterial& m) {
       for (MaterialFeatures left = m.features & kTextureBits; left != 0; left &= left - 1) {
         textures[count++] = &m.textures[__builtin_ctzll(left)];
       }
     }
   };
 
-  HWY_INLINE void Find(const BoundTexture& texture) {
+  FACET_INLINE void Find(const BoundTexture& texture) {
     if (made_for_ != nullptr && HaveSameTaps(*made_for_, texture)) return;
     const int k = texture.uv_slot;
     MakeTextureTaps(texture, s_.uv[k], s_.duv_dx[k], s_.duv_dy[k], taps_);
@@ -116,22 +116,22 @@ template <class T>
 class MaterialView {
  public:
   // `ahead`: a reader that may have prefetched for its surface; null: there is none.
-  HWY_INLINE explicit MaterialView(const FrameMaterial& material, TextureReader<T>* ahead = nullptr)
+  FACET_INLINE explicit MaterialView(const FrameMaterial& material, TextureReader<T>* ahead = nullptr)
       : m_(material), ahead_(ahead) {}
 
-  HWY_INLINE ShadingModel Model() const { return m_.model; }
-  HWY_INLINE bool Lit() const { return m_.Has(kLit); }
-  HWY_INLINE bool Emits() const { return m_.parameters == nullptr && m_.Has(kEmission); }
+  FACET_INLINE ShadingModel Model() const { return m_.model; }
+  FACET_INLINE bool Lit() const { return m_.Has(kLit); }
+  FACET_INLINE bool Emits() const { return m_.parameters == nullptr && m_.Has(kEmission); }
 
   // Factor times texture times vertex colour: linear, straight alpha. The texture's alpha is ignored if the material is
   // opaque, as glTF demands; it may not even be stored.
-  HWY_INLINE Vec4<T> BaseColor(const Surface<T>& s) const {
+  FACET_INLINE Vec4<T> BaseColor(const Surface<T>& s) const {
     TextureReader<T> own(s);
     TextureReader<T>& textures = ReaderOf(s, own);
     return BaseColor(s, textures);
   }
 
-  HWY_INLINE T Alpha(const Surface<T>& s) const {
+  FACET_INLINE T Alpha(const Surface<T>& s) const {
     TextureReader<T> own(s);
     TextureReader<T>& textures = ReaderOf(s, own);
     T alpha = T(m_.factors.base_color[3]) * s.color.w;
@@ -139,13 +139,13 @@ class MaterialView {
   }
 
   // The shading normal, unit: the interpolated normal, perturbed by the normal texture.
-  HWY_INLINE Vec3<T> Normal(const Surface<T>& s) const {
+  FACET_INLINE Vec3<T> Normal(const Surface<T>& s) const {
     TextureReader<T> own(s);
     TextureReader<T>& textures = ReaderOf(s, own);
     return MappedNormal<T>(Source{m_, s, textures}, Slot::Normal, m_.factors.normal_scale);
   }
 
-  HWY_INLINE Vec3<T> Emissive(const Surface<T>& s) const {
+  FACET_INLINE Vec3<T> Emissive(const Surface<T>& s) const {
     if (m_.parameters != nullptr) return {T(0.0f), T(0.0f), T(0.0f)};
     TextureReader<T> own(s);
     TextureReader<T>& textures = ReaderOf(s, own);
@@ -155,7 +155,7 @@ class MaterialView {
   // For models that are not glTF's. Calls body(source, base), with a Source as material/read-inl.h has it, and the base
   // colour as BaseColor() gives it.
   template <class Body>
-  HWY_INLINE auto Read(const Surface<T>& s, const Body& body) const {
+  FACET_INLINE auto Read(const Surface<T>& s, const Body& body) const {
     TextureReader<T> own(s);
     TextureReader<T>& textures = ReaderOf(s, own);
     textures.ReadAll(m_);
@@ -165,7 +165,7 @@ class MaterialView {
   // All inputs of the metallic-roughness model, or of the specular-glossiness model. `kPossible`: the lobes that are
   // read.
   template <MaterialFeatures kPossible = kAllLobes>
-  HWY_INLINE MaterialInputs<T> Inputs(const Surface<T>& s) const {
+  FACET_INLINE MaterialInputs<T> Inputs(const Surface<T>& s) const {
     TextureReader<T> own(s);
     TextureReader<T>& textures = ReaderOf(s, own);
     // Only users' shaders ask for this of other models, and they ask for all lobes.
@@ -191,27 +191,27 @@ class MaterialView {
     const Surface<T>& s;
     TextureReader<T>& textures;
 
-    HWY_INLINE bool Has(MaterialFeatures feature) const { return m.Has(feature); }
-    HWY_INLINE const MaterialFactors& Factors() const { return m.factors; }
+    FACET_INLINE bool Has(MaterialFeatures feature) const { return m.Has(feature); }
+    FACET_INLINE const MaterialFactors& Factors() const { return m.factors; }
     template <class Block>
-    HWY_INLINE const Block& Parameters() const {
+    FACET_INLINE const Block& Parameters() const {
       return m.Parameters<Block>();
     }
     template <int kChannels>
-    HWY_INLINE Vec4<T> Read(Slot slot) const {
+    FACET_INLINE Vec4<T> Read(Slot slot) const {
       return textures.template Read<kChannels>(m.Texture(slot));
     }
-    HWY_INLINE const Vec3<T>& Normal() const { return s.normal; }
-    HWY_INLINE const Vec3<T>& InterpolatedNormal() const { return s.interpolated_normal; }
-    HWY_INLINE const Vec4<T>& Tangent() const { return s.tangent; }
-    HWY_INLINE UvFootprint<T> FirstUv() const {
+    FACET_INLINE const Vec3<T>& Normal() const { return s.normal; }
+    FACET_INLINE const Vec3<T>& InterpolatedNormal() const { return s.interpolated_normal; }
+    FACET_INLINE const Vec4<T>& Tangent() const { return s.tangent; }
+    FACET_INLINE UvFootprint<T> FirstUv() const {
       return {s.uv[m.first_uv_slot], s.duv_dx[m.first_uv_slot], s.duv_dy[m.first_uv_slot]};
     }
-    HWY_INLINE T MetresPerUnit() const { return s.metres_per_unit; }
-    HWY_INLINE T FootprintAlpha2() const { return s.footprint_alpha2; }
+    FACET_INLINE T MetresPerUnit() const { return s.metres_per_unit; }
+    FACET_INLINE T FootprintAlpha2() const { return s.footprint_alpha2; }
   };
 
-  HWY_INLINE TextureReader<T>& ReaderOf(const Surface<T>& s, TextureReader<T>& own) const {
+  FACET_INLINE TextureReader<T>& ReaderOf(const Surface<T>& s, TextureReader<T>& own) const {
     return ahead_ != nullptr && ahead_->IsOf(s) ? *ahead_ : own;
   }
 
@@ -231,7 +231,7 @@ class MaterialView {
   }
 
   // The texel of the coverage.
-  HWY_INLINE T Coverage(TextureReader<T>& textures) const {
+  FACET_INLINE T Coverage(TextureReader<T>& textures) const {
     const BoundTexture& texture = m_.Texture(m_.coverage_slot);
     switch (m_.coverage_channel) {
       case 0: return textures.template Read<kR>(texture).x;
@@ -243,7 +243,7 @@ class MaterialView {
 
   // `kIsGltf`: the coverage is the base colour's alpha for certain.
   template <bool kIsGltf = false>
-  HWY_INLINE Vec4<T> BaseColor(const Surface<T>& s, TextureReader<T>& textures) const {
+  FACET_INLINE Vec4<T> BaseColor(const Surface<T>& s, TextureReader<T>& textures) const {
     const bool has_coverage_apart = !kIsGltf && m_.coverage_slot != Slot::BaseColor;
     Vec4<T> c{T(m_.factors.base_color[0]) * s.color.x, T(m_.factors.base_color[1]) * s.color.y,
               T(m_.factors.base_color[2]) * s.color.z, T(m_.factors.base_color[3]) * s.color.w};

@@ -20,20 +20,20 @@ namespace HWY_NAMESPACE {
 
 // What a functor returns, as colour and alpha.
 template <class T>
-HWY_INLINE const Shaded<T>& OwnOf(const Shaded<T>& shaded) {
+FACET_INLINE const Shaded<T>& OwnOf(const Shaded<T>& shaded) {
   return shaded;
 }
 template <class T>
-HWY_INLINE const Shaded<T>& OwnOf(const ShadedThrough<T>& shaded) {
+FACET_INLINE const Shaded<T>& OwnOf(const ShadedThrough<T>& shaded) {
   return shaded.own;
 }
 
 // The other results of fragments i and after. Those that are not finite let nothing pass.
 template <class T>
-HWY_INLINE void StoreSeenThrough(const ShadeTask&, const Surface<T>&, std::size_t, const Shaded<T>&) {}
+FACET_INLINE void StoreSeenThrough(const ShadeTask&, const Surface<T>&, std::size_t, const Shaded<T>&) {}
 template <class T>
-HWY_INLINE void StoreSeenThrough(const ShadeTask& task, const Surface<T>& surface, std::size_t i,
-                                 const ShadedThrough<T>& shaded) {
+FACET_INLINE void StoreSeenThrough(const ShadeTask& task, const Surface<T>& surface, std::size_t i,
+                                   const ShadedThrough<T>& shaded) {
   const SeenThroughOutputs& out = *task.seen_through;
   const T zero(0.0f), one(1.0f);
   const auto put = [i](T value, float* to) HWY_ATTR {
@@ -73,8 +73,8 @@ struct ModelSeenThrough {
   const ShadeTask& task;
 
   template <class T, class Material, class Lighting>
-  HWY_INLINE ShadedThrough<T> operator()(const Surface<T>& surface, const Material& material,
-                                         const Lighting& lighting) const {
+  FACET_INLINE ShadedThrough<T> operator()(const Surface<T>& surface, const Material& material,
+                                           const Lighting& lighting) const {
     ShadedThrough<T> shaded = Model::Through(surface, material, lighting);
     T& alpha = shaded.own.alpha;
     if (task.material->alpha_mode == AlphaMode::Opaque) alpha = T(1.0f);
@@ -90,7 +90,7 @@ struct ModelSeenThrough {
 // `surfaces`: for the current packet and the next one. Texture coordinates that the material does not read keep the
 // values that they have there; shading models do not read them.
 template <class Shader>
-HWY_INLINE void ShadePackets(const ShadeTask& task, const Shader& shader, Surface<Float> (&surfaces)[2]) {
+FACET_INLINE void ShadePackets(const ShadeTask& task, const Shader& shader, Surface<Float> (&surfaces)[2]) {
   const LightingView<Float> lighting(*task.lighting);
   const std::size_t lanes = LaneCount();
   TextureReader<Float> readers[2] = {TextureReader<Float>(surfaces[0]), TextureReader<Float>(surfaces[1])};
@@ -125,7 +125,7 @@ HWY_INLINE void ShadePackets(const ShadeTask& task, const Shader& shader, Surfac
 // The same for users' shaders: texture coordinates and lengths that the material does not read are zero. Shading models
 // do without this clearing, because in batches of few fragments it would take up to 6 % more instructions.
 template <class Shader>
-HWY_INLINE void ShadePackets(const ShadeTask& task, const Shader& shader) {
+FACET_INLINE void ShadePackets(const ShadeTask& task, const Shader& shader) {
   Surface<Float> surfaces[2];
   const int used = task.count > LaneCount() ? 2 : 1;
   for (int buffer = 0; buffer < used; ++buffer) {

@@ -29,7 +29,7 @@ struct AxisTaps {
 
 // A texture coordinate after wrapping, in [0, 1].
 template <class T>
-HWY_INLINE T Wrapped(Wrap wrap, T position) {
+FACET_INLINE T Wrapped(Wrap wrap, T position) {
   position = Select(IsFinite(position), position, T(0.0f));
   switch (wrap) {
     case Wrap::Repeat: return position - Floor(position);
@@ -43,7 +43,7 @@ HWY_INLINE T Wrapped(Wrap wrap, T position) {
 
 // `position`: texture coordinate, 1 being the whole texture; `size`: in texels; `linear`: lanes with linear filtering.
 template <class T>
-HWY_INLINE AxisTaps<T> MakeTaps(Wrap wrap, T position, IntOf<T> size, MaskOf<T> linear) {
+FACET_INLINE AxisTaps<T> MakeTaps(Wrap wrap, T position, IntOf<T> size, MaskOf<T> linear) {
   const T texel = Wrapped(wrap, position) * FromInt<T>(size) - Select(linear, T(0.5f), T(0.0f));
   const T whole = Floor(texel);
   AxisTaps<T> taps{};
@@ -72,7 +72,7 @@ inline constexpr bool kWholeWeights = std::is_same_v<T, Float> || std::is_same_v
 template <class T>
 inline constexpr float kWeightSum = kWholeWeights<T> ? 16384.0f : 1.0f;
 template <class T>
-HWY_INLINE T RoundWeight(T weight) {
+FACET_INLINE T RoundWeight(T weight) {
   if constexpr (kWholeWeights<T>) {
     return Floor(weight + T(0.5f));
   } else {
@@ -84,17 +84,17 @@ HWY_INLINE T RoundWeight(T weight) {
 template <class T, bool kWhole = kWholeWeights<T>>
 struct WeightPair {
   IndexList<T> of_lane;
-  HWY_INLINE void Set(T left, T right) { of_lane = TruncateToInt(left) | ShiftLeft<16>(TruncateToInt(right)); }
+  FACET_INLINE void Set(T left, T right) { of_lane = TruncateToInt(left) | ShiftLeft<16>(TruncateToInt(right)); }
   // For T with a single lane.
-  HWY_INLINE std::int32_t Left() const { return of_lane.of_lane[0] & 0xFFFF; }
-  HWY_INLINE std::int32_t Right() const { return of_lane.of_lane[0] >> 16; }
+  FACET_INLINE std::int32_t Left() const { return of_lane.of_lane[0] & 0xFFFF; }
+  FACET_INLINE std::int32_t Right() const { return of_lane.of_lane[0] >> 16; }
 };
 template <class T>
 struct WeightPair<T, false> {
   T left, right;
-  HWY_INLINE void Set(T l, T r) { left = l, right = r; }
-  HWY_INLINE T Left() const { return left; }
-  HWY_INLINE T Right() const { return right; }
+  FACET_INLINE void Set(T l, T r) { left = l, right = r; }
+  FACET_INLINE T Left() const { return left; }
+  FACET_INLINE T Right() const { return right; }
 };
 
 // Texel addresses and weights of one bilinear tap.
@@ -110,7 +110,7 @@ struct LevelLayout {
   IntOf<T> width, height, offset, pitch;
 };
 template <class T>
-HWY_INLINE LevelLayout<T> LayoutOfLevel(const TextureData& data, IntOf<T> level) {
+FACET_INLINE LevelLayout<T> LayoutOfLevel(const TextureData& data, IntOf<T> level) {
   static_assert(kMaxTextureLevels == 16);
   return {FetchOf16(data.level_width, level), FetchOf16(data.level_height, level), FetchOf16(data.level_offset, level),
           FetchOf16(data.level_pitch, level)};
@@ -118,8 +118,8 @@ HWY_INLINE LevelLayout<T> LayoutOfLevel(const TextureData& data, IntOf<T> level)
 
 // `share`: the tap's part of kWeightSum, a result of RoundWeight(). The weights of its four texels sum to it exactly.
 template <class T>
-HWY_INLINE void MakeBilinearTap(const Sampler& sampler, Vec2<T> uv, const LevelLayout<T>& level, MaskOf<T> linear,
-                                T share, BilinearTap<T>& tap) {
+FACET_INLINE void MakeBilinearTap(const Sampler& sampler, Vec2<T> uv, const LevelLayout<T>& level, MaskOf<T> linear,
+                                  T share, BilinearTap<T>& tap) {
   const AxisTaps<T> u = MakeTaps(sampler.wrap_u, uv.x, level.width, linear);
   const AxisTaps<T> v = MakeTaps(sampler.wrap_v, uv.y, level.height, linear);
   const IntOf<T> left = level.offset + u.first;
@@ -143,7 +143,7 @@ struct Footprint {
 };
 
 template <class T>
-HWY_INLINE Footprint<T> MakeFootprint(const BoundTexture& texture, Vec2<T> duv_dx, Vec2<T> duv_dy) {
+FACET_INLINE Footprint<T> MakeFootprint(const BoundTexture& texture, Vec2<T> duv_dx, Vec2<T> duv_dy) {
   const T width(static_cast<float>(texture.data->level_width[0])),
       height(static_cast<float>(texture.data->level_height[0]));
   // A bound beyond every texture's last level that does not overflow when squared twice; NaN becomes the lower bound.
@@ -196,7 +196,7 @@ struct TextureTaps {
 };
 
 // Whether two textures are sampled alike, so that the same taps serve both.
-HWY_INLINE bool HaveSameTaps(const BoundTexture& a, const BoundTexture& b) {
+FACET_INLINE bool HaveSameTaps(const BoundTexture& a, const BoundTexture& b) {
   const TextureData &p = *a.data, &q = *b.data;
   const Sampler &f = a.sampler, &g = b.sampler;
   bool same = a.uv_slot == b.uv_slot && a.max_anisotropy == b.max_anisotropy && p.levels == q.levels &&
@@ -275,7 +275,7 @@ HWY_NOINLINE void MakeTextureTaps(const BoundTexture& texture, const Vec2<T>& uv
 
 // Whether all texels that would be read at `taps` are black, in all lanes.
 template <class T>
-HWY_INLINE bool IsEmpty(const BoundTexture& texture, const TextureTaps<T>& taps) {
+FACET_INLINE bool IsEmpty(const BoundTexture& texture, const TextureTaps<T>& taps) {
   const EmptyCells& empty_cells = texture.data->empty_cells;
   if (empty_cells.width == 0) return false;
   const auto cell = [](Wrap wrap, T position, int cells) HWY_ATTR {
@@ -289,7 +289,7 @@ HWY_INLINE bool IsEmpty(const BoundTexture& texture, const TextureTaps<T>& taps)
 
 // Prefetches texels that will be read soon, for one lane in `kStep`. (Inlined, as GCC drops the call otherwise.)
 template <int kStep, class T>
-HWY_INLINE void PrefetchRow(const TextureData& data, const IndexList<T>& texel) {
+FACET_INLINE void PrefetchRow(const TextureData& data, const IndexList<T>& texel) {
   const std::ptrdiff_t texel_bytes = data.TexelBytes();
   for (int lane = 0; lane < IndexList<T>::kLanes; lane += kStep) {
     __builtin_prefetch(data.bytes.data() + texel.of_lane[lane] * texel_bytes);
@@ -299,7 +299,7 @@ HWY_INLINE void PrefetchRow(const TextureData& data, const IndexList<T>& texel) 
 // Prefetches most texels that will be read at `taps`. Neighbouring lanes read neighbouring texels: every second lane
 // (fourth, in the coarser level) touches nearly all cache lines, and one lane's lower row is often another's upper row.
 template <class T>
-HWY_INLINE void PrefetchTexels(const TextureData& data, const TextureTaps<T>& taps) {
+FACET_INLINE void PrefetchTexels(const TextureData& data, const TextureTaps<T>& taps) {
   for (int i = 0; i < taps.count;) {
     PrefetchRow<2, T>(data, taps.taps[i++].top);
     if (taps.two_levels) PrefetchRow<4, T>(data, taps.taps[i++].top);
@@ -310,16 +310,16 @@ HWY_INLINE void PrefetchTexels(const TextureData& data, const TextureTaps<T>& ta
 struct ScalarPairs {
   const std::uint8_t* p;
   const TextureData& data;
-  HWY_INLINE std::int32_t Byte(int i) const {
+  FACET_INLINE std::int32_t Byte(int i) const {
     const std::uint8_t from = data.pair_bytes[i];
     return from == TextureData::kNoByte ? 0 : p[from];
   }
-  HWY_INLINE std::int32_t Component(int i) const {
+  FACET_INLINE std::int32_t Component(int i) const {
     const auto kept = static_cast<std::uint16_t>(Byte(2 * i) | Byte(2 * i + 1) << 8);
     return static_cast<std::int16_t>(data.sparse ? kept ^ 0x8000 : kept);
   }
-  HWY_INLINE std::int32_t Left(int channel) const { return Component(2 * channel); }
-  HWY_INLINE std::int32_t Right(int channel) const { return Component(2 * channel + 1); }
+  FACET_INLINE std::int32_t Left(int channel) const { return Component(2 * channel); }
+  FACET_INLINE std::int32_t Right(int channel) const { return Component(2 * channel + 1); }
 };
 
 #if HWY_TARGET == HWY_SCALAR
@@ -353,7 +353,7 @@ inline constexpr WordOfBlocks kWordOfBlocks;
 // The two texels of a row are one 16-byte block of 16-bit integers (R, R, G, G, B, B, A, A): one multiply-add of pairs
 // weighs both. A vector holds two such blocks, of every fourth lane; four are no faster where 512 bits run in halves.
 template <int kCount, bool kSparse, class T>
-HWY_INLINE void SumTexelsInLanes(const TextureData* const* textures, const TextureTaps<T>& taps, TexelSums<T>* sums) {
+FACET_INLINE void SumTexelsInLanes(const TextureData* const* textures, const TextureTaps<T>& taps, TexelSums<T>* sums) {
   using Tag = hn::CappedTag<std::int32_t, 8>;
   const Tag d32;
   const hn::Repartition<std::uint8_t, Tag> d8;
@@ -429,7 +429,7 @@ HWY_NOINLINE void SumTexels(const TextureData* const* textures, const TextureTap
   }
 }
 template <class T>
-HWY_INLINE void SumTexels(int count, const TextureData* const* of, const TextureTaps<T>& taps, TexelSums<T>* sums) {
+FACET_INLINE void SumTexels(int count, const TextureData* const* of, const TextureTaps<T>& taps, TexelSums<T>* sums) {
   for (; count > 5; count -= 5, of += 5, sums += 5) SumTexels<5, T>(of, taps, sums);
   switch (count) {
     case 1: return SumTexels<1, T>(of, taps, sums);
@@ -442,7 +442,7 @@ HWY_INLINE void SumTexels(int count, const TextureData* const* of, const Texture
 
 // The filtered values in [0, 1] of the channels in kChannels (a ChannelMask), from `sums`; other channels are 0.
 template <int kChannels, class T>
-HWY_INLINE Vec4<T> ChannelsOf(const TextureData& data, const TexelSums<T>& sums) {
+FACET_INLINE Vec4<T> ChannelsOf(const TextureData& data, const TexelSums<T>& sums) {
   // From sums of weighted components to [0, 1]. 16-bit components were summed as code - 32768, which is added back.
   const T scale((data.is_16_bit ? 1.0f / 65535.0f : 1.0f / 255.0f) / kWeightSum<T>);
   Vec4<T> c{};
@@ -478,7 +478,7 @@ HWY_INLINE Vec4<T> ChannelsOf(const TextureData& data, const TexelSums<T>& sums)
 
 // Filters `texture` with taps that were made for it, or for another texture that is sampled alike.
 template <int kChannels, class T>
-HWY_INLINE Vec4<T> ReadTexture(const BoundTexture& texture, const TextureTaps<T>& taps) {
+FACET_INLINE Vec4<T> ReadTexture(const BoundTexture& texture, const TextureTaps<T>& taps) {
   TexelSums<T> sums;
   SumTexels<1, T>(&texture.data, taps, &sums);
   return ChannelsOf<kChannels>(*texture.data, sums);
@@ -486,7 +486,7 @@ HWY_INLINE Vec4<T> ReadTexture(const BoundTexture& texture, const TextureTaps<T>
 
 // Samples `texture` at interpolated coordinates `uv` with their derivatives over one pixel.
 template <int kChannels, class T>
-HWY_INLINE Vec4<T> SampleTexture(const BoundTexture& texture, Vec2<T> uv, Vec2<T> duv_dx, Vec2<T> duv_dy) {
+FACET_INLINE Vec4<T> SampleTexture(const BoundTexture& texture, Vec2<T> uv, Vec2<T> duv_dx, Vec2<T> duv_dy) {
   TextureTaps<T> taps;
   MakeTextureTaps(texture, uv, duv_dx, duv_dy, taps);
   return ReadTexture<kChannels>(texture, taps);

@@ -15,7 +15,7 @@ namespace HWY_NAMESPACE {
 
 // Loads the codes of one vector of pixels, and splits them into one vector per channel.
 template <int kChannels, class D>
-HWY_INLINE void LoadPixels(D d, const std::uint8_t* p, hn::Vec<D>* v) {
+FACET_INLINE void LoadPixels(D d, const std::uint8_t* p, hn::Vec<D>* v) {
   if constexpr (kChannels == 1) {
     v[0] = hn::LoadU(d, p);
   } else if constexpr (kChannels == 2) {
@@ -29,13 +29,13 @@ HWY_INLINE void LoadPixels(D d, const std::uint8_t* p, hn::Vec<D>* v) {
 
 // Equal to code / 255 for all codes from 0 to 255, without a division: 1 / 255 is (257 + 1 / 255) / 65536, and the
 // product with 257 / 65536 is exact, so only the sum is rounded.
-HWY_INLINE Float DividedBy255(Int code) {
+FACET_INLINE Float DividedBy255(Int code) {
   const Float c = ToFloat(code);
   return c * Float(257.0f / 65536.0f) + c * Float(1.0f / (255.0f * 65536.0f));
 }
 
 template <int kChannels>
-HWY_INLINE void ExpandRowOf(const ExpandRowTask& task) {
+FACET_INLINE void ExpandRowOf(const ExpandRowTask& task) {
   const hn::Rebind<std::uint8_t, IntTag> d;
   const std::size_t lanes = LaneCount(), width = std::size_t(task.width);
   for (std::size_t x = 0; x < width; x += lanes) {
@@ -66,7 +66,7 @@ void ExpandRow(const ExpandRowTask& task) {
 
 // Stores one vector of texels: their components, one vector each, are interleaved.
 template <int kComponents, class D, class V>
-HWY_INLINE void StoreTexels(D d, const V* v, hn::TFromD<D>* out) {
+FACET_INLINE void StoreTexels(D d, const V* v, hn::TFromD<D>* out) {
   if constexpr (kComponents == 1) {
     hn::StoreU(v[0], d, out);
   } else if constexpr (kComponents == 2) {
@@ -79,7 +79,7 @@ HWY_INLINE void StoreTexels(D d, const V* v, hn::TFromD<D>* out) {
 }
 
 template <int kComponents, class Component>
-HWY_INLINE void StoreRowOf(const StoreRowTask& task) {
+FACET_INLINE void StoreRowOf(const StoreRowTask& task) {
   constexpr bool kIs16Bit = sizeof(Component) == 2;
   constexpr std::size_t kTexel = kComponents * sizeof(Component);
   const hn::Rebind<Component, IntTag> d;
@@ -111,7 +111,7 @@ HWY_INLINE void StoreRowOf(const StoreRowTask& task) {
 }
 
 template <class Component>
-HWY_INLINE void StoreRowOf(const StoreRowTask& task) {
+FACET_INLINE void StoreRowOf(const StoreRowTask& task) {
   switch (task.components) {
     case 1: return StoreRowOf<1, Component>(task);
     case 2: return StoreRowOf<2, Component>(task);
@@ -126,7 +126,7 @@ void StoreRow(const StoreRowTask& task) {
 
 // `kTaps`: how many texels of a row contribute to one texel of the next level.
 template <int kTaps>
-HWY_INLINE void HalveRowOf(const HalveRowTask& task) {
+FACET_INLINE void HalveRowOf(const HalveRowTask& task) {
   const Float total(static_cast<float>(task.n)), one(1.0f);
   for (std::int32_t i = 0; i < task.m; i += static_cast<std::int32_t>(LaneCount())) {
     Float w[3] = {Float(kTaps == 1 ? 1.0f : 0.5f), Float(0.5f), Float(0.0f)};

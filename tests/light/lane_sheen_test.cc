@@ -27,13 +27,13 @@ HWY_BEFORE_NAMESPACE();
 namespace facet {
 namespace HWY_NAMESPACE {
 
-HWY_INLINE float LoadAs(const float* p, float) { return *p; }
-HWY_INLINE Float LoadAs(const float* p, Float) { return LoadFloat(p); }
-HWY_INLINE void StoreAs(float value, float* p) { *p = value; }
-HWY_INLINE void StoreAs(Float value, float* p) { Store(value, p); }
+FACET_INLINE float LoadAs(const float* p, float) { return *p; }
+FACET_INLINE Float LoadAs(const float* p, Float) { return LoadFloat(p); }
+FACET_INLINE void StoreAs(float value, float* p) { *p = value; }
+FACET_INLINE void StoreAs(Float value, float* p) { Store(value, p); }
 
 template <class T>
-HWY_INLINE void ReflectOne(const SheenTask& task, int first) {
+FACET_INLINE void ReflectOne(const SheenTask& task, int first) {
   const auto number = [&](int i) HWY_ATTR { return LoadAs(task.in + i * task.count + first, T()); };
   const auto vector = [&](int i) HWY_ATTR { return Vec3<T>{number(i), number(i + 1), number(i + 2)}; };
   const auto write = [&](int i, T value) HWY_ATTR { StoreAs(value, task.out + i * task.count + first); };

@@ -33,27 +33,27 @@ struct UntexturedSource {
   const LectureParameters& parameters;
   Vec3<T> normal;
 
-  HWY_INLINE bool Has(MaterialFeatures) const { return false; }
+  FACET_INLINE bool Has(MaterialFeatures) const { return false; }
   template <class Block>
-  HWY_INLINE const Block& Parameters() const {
+  FACET_INLINE const Block& Parameters() const {
     return parameters;
   }
   template <int kChannels>
-  HWY_INLINE Vec4<T> Read(Slot) const {
+  FACET_INLINE Vec4<T> Read(Slot) const {
     return {T(1.0f), T(1.0f), T(1.0f), T(1.0f)};
   }
-  HWY_INLINE Vec3<T> Normal() const { return normal; }
-  HWY_INLINE Vec3<T> InterpolatedNormal() const { return normal; }
-  HWY_INLINE Vec4<T> Tangent() const { return {T(1.0f), T(0.0f), T(0.0f), T(1.0f)}; }
+  FACET_INLINE Vec3<T> Normal() const { return normal; }
+  FACET_INLINE Vec3<T> InterpolatedNormal() const { return normal; }
+  FACET_INLINE Vec4<T> Tangent() const { return {T(1.0f), T(0.0f), T(0.0f), T(1.0f)}; }
 };
 
-HWY_INLINE float LoadAs(const float* p, float) { return *p; }
-HWY_INLINE Float LoadAs(const float* p, Float) { return LoadFloat(p); }
-HWY_INLINE void StoreAs(float value, float* p) { *p = value; }
-HWY_INLINE void StoreAs(Float value, float* p) { Store(value, p); }
+FACET_INLINE float LoadAs(const float* p, float) { return *p; }
+FACET_INLINE Float LoadAs(const float* p, Float) { return LoadFloat(p); }
+FACET_INLINE void StoreAs(float value, float* p) { *p = value; }
+FACET_INLINE void StoreAs(Float value, float* p) { Store(value, p); }
 
 template <class T>
-HWY_INLINE void ShadeLectureOne(const LectureTask& task, int first) {
+FACET_INLINE void ShadeLectureOne(const LectureTask& task, int first) {
   const auto vector = [&](int i) HWY_ATTR {
     const auto number = [&](int k) HWY_ATTR { return LoadAs(task.in + k * task.count + first, T()); };
     return Vec3<T>{number(i), number(i + 1), number(i + 2)};

@@ -12,7 +12,7 @@ namespace facet {
 namespace HWY_NAMESPACE {
 
 template <class T>
-HWY_INLINE T ApplyFunction(int function, T a, T b) {
+FACET_INLINE T ApplyFunction(int function, T a, T b) {
   switch (function) {
     case 0: return Exp2(a);
     case 1: return Exp(a);

@@ -3,7 +3,7 @@ include(${CMAKE_CURRENT_LIST_DIR}/run.cmake)
 
 file(REMOVE_RECURSE ${WORK_DIR})
 run(${CMAKE_COMMAND} -S ${TEST_DIR}/core_alone -B ${WORK_DIR} -G ${GENERATOR} -DCMAKE_CXX_COMPILER=${CXX_COMPILER}
-    -DCMAKE_BUILD_TYPE=MinSizeRel -DFACET=${FACET})
+    -DCMAKE_BUILD_TYPE=MinSizeRel -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON -DFACET=${FACET})
 run(${CMAKE_COMMAND} --build ${WORK_DIR} --target consumer)
 file(GLOB_RECURSE consumer LIST_DIRECTORIES false ${WORK_DIR}/consumer)
 list(FILTER consumer INCLUDE REGEX "/consumer$")

@@ -4,8 +4,8 @@
 FACET_SHADER_BEGIN
 struct ShowModel {
   template <class T>
-  HWY_INLINE Shaded<T> operator()(const Surface<T>& surface, const MaterialView<T>& material,
-                                  const LightingView<T>& lighting) const {
+  FACET_INLINE Shaded<T> operator()(const Surface<T>& surface, const MaterialView<T>& material,
+                                    const LightingView<T>& lighting) const {
     return ModelOfMaterial()(surface, material, lighting);
   }
 };

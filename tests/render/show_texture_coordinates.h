@@ -5,7 +5,7 @@ FACET_SHADER_BEGIN
 struct ShowTextureCoordinates {
   static constexpr LightUse kLight = LightUse::None;
   template <class T>
-  HWY_INLINE Shaded<T> operator()(const Surface<T>& surface, const MaterialView<T>&, const LightingView<T>&) const {
+  FACET_INLINE Shaded<T> operator()(const Surface<T>& surface, const MaterialView<T>&, const LightingView<T>&) const {
     T others(0.0f);
     const auto add = [&others](const Vec2<T>& v) HWY_ATTR { others = others + (Abs(v.x) + Abs(v.y)); };
     for (int i = 0; i < kSurfaceUvSlots; ++i) {

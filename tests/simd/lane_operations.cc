@@ -15,7 +15,7 @@ namespace HWY_NAMESPACE {
 std::size_t TestLaneCount() { return LaneCount(); }
 
 template <class T>
-HWY_INLINE T ApplyFloatOp(FloatOp op, T a, T b, T c) {
+FACET_INLINE T ApplyFloatOp(FloatOp op, T a, T b, T c) {
   switch (op) {
     case FloatOp::Add: return a + b;
     case FloatOp::Sub: return a - b;
@@ -51,7 +51,7 @@ void TestOnDoubles(FloatOp op, const FloatArrays& arrays) {
   }
 }
 
-HWY_INLINE Mask ApplyMaskOp(MaskOp op, Float a, Float b) {
+FACET_INLINE Mask ApplyMaskOp(MaskOp op, Float a, Float b) {
   const Mask a_is_positive = a > Float(0.0f), b_is_positive = b > Float(0.0f);
   switch (op) {
     case MaskOp::Less: return a < b;
@@ -73,7 +73,7 @@ void TestMasks(MaskOp op, const float* a, const float* b, std::int32_t* out, std
   }
 }
 
-HWY_INLINE Int ApplyIntOp(IntOp op, Int a, Int b) {
+FACET_INLINE Int ApplyIntOp(IntOp op, Int a, Int b) {
   switch (op) {
     case IntOp::Add: return a + b;
     case IntOp::Sub: return a - b;

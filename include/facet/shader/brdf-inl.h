@@ -29,7 +29,7 @@ inline constexpr float kMinNDotV = 1e-4f;
 inline constexpr float kDielectricF0 = 0.04f;
 
 template <class T>
-HWY_INLINE T AlphaFromPerceptualRoughness(T perceptual_roughness) {
+FACET_INLINE T AlphaFromPerceptualRoughness(T perceptual_roughness) {
   return perceptual_roughness * perceptual_roughness;
 }
 
@@ -37,7 +37,7 @@ HWY_INLINE T AlphaFromPerceptualRoughness(T perceptual_roughness) {
 // Microfacet Models for Refraction through Rough Surfaces, equation 33. `sin2_n_h` is 1 - n_dot_h^2. It is a parameter
 // because computing it from n_dot_h in float loses all digits within the highlight.
 template <class T>
-HWY_INLINE T DistributionGgx(T n_dot_h, T sin2_n_h, T alpha) {
+FACET_INLINE T DistributionGgx(T n_dot_h, T sin2_n_h, T alpha) {
   const T a = n_dot_h * alpha;
   const T k = alpha / (sin2_n_h + a * a);
   return k * k * T(kInversePi);
@@ -46,7 +46,7 @@ HWY_INLINE T DistributionGgx(T n_dot_h, T sin2_n_h, T alpha) {
 // The same from the vectors. sin^2 = |n x h|^2 by Lagrange's identity, exact where n and h nearly coincide
 // (Guy and Agopian, 2018, Physically Based Rendering in Filament, section 4.4.1).
 template <class T>
-HWY_INLINE T DistributionGgx(Vec3<T> normal, Vec3<T> half, T alpha) {
+FACET_INLINE T DistributionGgx(Vec3<T> normal, Vec3<T> half, T alpha) {
   const Vec3<T> c = Cross(normal, half);
   return DistributionGgx(Max(Dot(normal, half), T(0.0f)), Dot(c, c), alpha);
 }
@@ -54,7 +54,7 @@ HWY_INLINE T DistributionGgx(Vec3<T> normal, Vec3<T> half, T alpha) {
 // The same where the surface is rougher along the tangent than across it. The arguments are the components of the half
 // vector. Burley, 2012, Physically Based Shading at Disney, appendix B.2.
 template <class T>
-HWY_INLINE T DistributionGgxAnisotropic(T t_dot_h, T b_dot_h, T n_dot_h, T alpha_t, T alpha_b) {
+FACET_INLINE T DistributionGgxAnisotropic(T t_dot_h, T b_dot_h, T n_dot_h, T alpha_t, T alpha_b) {
   const T t = t_dot_h / alpha_t, b = b_dot_h / alpha_b;
   const T k = t * t + b * b + n_dot_h * n_dot_h;
   return T(kInversePi) / (alpha_t * alpha_b * k * k);
@@ -64,7 +64,7 @@ HWY_INLINE T DistributionGgxAnisotropic(T t_dot_h, T b_dot_h, T n_dot_h, T alpha
 // Heitz, 2014, Understanding the Masking-Shadowing Function in Microfacet-Based BRDFs, equation 99; in the form of
 // glTF 2.0's specification, appendix B.3. Finite while n_dot_v > 0 and n_dot_l >= 0 and alpha > 0.
 template <class T>
-HWY_INLINE T VisibilitySmith(T n_dot_l, T n_dot_v, T alpha) {
+FACET_INLINE T VisibilitySmith(T n_dot_l, T n_dot_v, T alpha) {
   const T a2 = alpha * alpha;
   const T from_light = n_dot_v * Sqrt(n_dot_l * n_dot_l * (T(1.0f) - a2) + a2);
   const T from_view = n_dot_l * Sqrt(n_dot_v * n_dot_v * (T(1.0f) - a2) + a2);
@@ -73,7 +73,7 @@ HWY_INLINE T VisibilitySmith(T n_dot_l, T n_dot_v, T alpha) {
 
 // (1 - cosine)^5, the weight of Fresnel's rise towards grazing angles.
 template <class T>
-HWY_INLINE T SchlickWeight(T v_dot_h) {
+FACET_INLINE T SchlickWeight(T v_dot_h) {
   const T m = Clamp(T(1.0f) - v_dot_h, T(0.0f), T(1.0f));
   const T m2 = m * m;
   return m2 * m2 * m;
@@ -81,11 +81,11 @@ HWY_INLINE T SchlickWeight(T v_dot_h) {
 
 // Fresnel reflectance. Schlick, 1994, An Inexpensive BRDF Model for Physically-based Rendering, equation 15.
 template <class T>
-HWY_INLINE T FresnelSchlick(T f0, T v_dot_h) {
+FACET_INLINE T FresnelSchlick(T f0, T v_dot_h) {
   return f0 + (T(1.0f) - f0) * SchlickWeight(v_dot_h);
 }
 template <class T>
-HWY_INLINE Vec3<T> FresnelSchlick(Vec3<T> f0, T v_dot_h) {
+FACET_INLINE Vec3<T> FresnelSchlick(Vec3<T> f0, T v_dot_h) {
   const T w = SchlickWeight(v_dot_h);
   const T rest = T(1.0f) - w;
   return {f0.x * rest + w, f0.y * rest + w, f0.z * rest + w};
@@ -94,13 +94,13 @@ HWY_INLINE Vec3<T> FresnelSchlick(Vec3<T> f0, T v_dot_h) {
 // Mean of Schlick's Fresnel over the hemisphere, weighted by the cosine: f0 + (f90 - f0) / 21, because the integral of
 // 2 mu (1 - mu)^5 over [0, 1] is 1/21.
 template <class T>
-HWY_INLINE T FresnelSchlickAverage(T f0, T f90 = T(1.0f)) {
+FACET_INLINE T FresnelSchlickAverage(T f0, T f90 = T(1.0f)) {
   return f0 + (f90 - f0) * T(1.0f / 21.0f);
 }
 
 // Lambert, 1760, Photometria: equal radiance in all directions, in 1/steradian for albedo 1.
 template <class T>
-HWY_INLINE T DiffuseLambert() {
+FACET_INLINE T DiffuseLambert() {
   return T(kInversePi);
 }
 
@@ -109,7 +109,7 @@ HWY_INLINE T DiffuseLambert() {
 // the square that Hill, 2018, A Multi-Faceted Exploration, part 3, adds (light bounces at least twice). 1 for a perfect
 // reflector.
 template <class T>
-HWY_INLINE T MultipleScatteringFresnel(T f0, T e_avg, T f90 = T(1.0f)) {
+FACET_INLINE T MultipleScatteringFresnel(T f0, T e_avg, T f90 = T(1.0f)) {
   const T f = FresnelSchlickAverage(f0, f90);
   return f * f * e_avg / (T(1.0f) - f * (T(1.0f) - e_avg));
 }

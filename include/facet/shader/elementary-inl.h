@@ -28,16 +28,16 @@ namespace HWY_NAMESPACE {
 
 // --- Bits of float and Float ---------------------------------------------------------------------------------------
 
-HWY_INLINE std::int32_t BitsOf(float a) { return std::bit_cast<std::int32_t>(a); }
-HWY_INLINE float FloatFromBits(std::int32_t a) { return std::bit_cast<float>(a); }
-HWY_INLINE float ToFloat(std::int32_t a) { return static_cast<float>(a); }
+FACET_INLINE std::int32_t BitsOf(float a) { return std::bit_cast<std::int32_t>(a); }
+FACET_INLINE float FloatFromBits(std::int32_t a) { return std::bit_cast<float>(a); }
+FACET_INLINE float ToFloat(std::int32_t a) { return static_cast<float>(a); }
 void BitsOf(double) = delete;  // functions built on bits are for float; those of double are separate
 
 // --- Parts ----------------------------------------------------------------------------------------------------------
 
 // c[0] + x (c[1] + x (c[2] + ...)), by Horner's rule.
 template <class T, int kCount>
-HWY_INLINE T Polynomial(T x, const float (&c)[kCount]) {
+FACET_INLINE T Polynomial(T x, const float (&c)[kCount]) {
   T sum = T(c[kCount - 1]);
   for (int i = kCount - 2; i >= 0; --i) sum = sum * x + T(c[i]);
   return sum;
@@ -45,18 +45,18 @@ HWY_INLINE T Polynomial(T x, const float (&c)[kCount]) {
 
 // The first 12 bits of the significand: the product of two such numbers is exact, and so is x - HighHalf(x).
 template <class T>
-HWY_INLINE T HighHalf(T x) {
+FACET_INLINE T HighHalf(T x) {
   return FloatFromBits(BitsOf(x) & IntOf<T>(~0xFFF));
 }
 
 template <class T>
-HWY_INLINE T QuietNan() {
+FACET_INLINE T QuietNan() {
   return T(std::numeric_limits<float>::quiet_NaN());
 }
 
 // x 2^n with one rounding at most, where |x| is in [0.5, 2] and n in [-252, 254].
 template <class T>
-HWY_INLINE T ScaleByPowerOfTwo(T x, IntOf<T> n) {
+FACET_INLINE T ScaleByPowerOfTwo(T x, IntOf<T> n) {
   using I = IntOf<T>;
   const I half = ShiftRightArithmetic<1>(n);  // 2^n itself need not be a float
   return x * FloatFromBits(ShiftLeft<23>(half + I(127))) * FloatFromBits(ShiftLeft<23>(n - half + I(127)));
@@ -68,7 +68,7 @@ struct Decomposed {
   T significand, exponent;
 };
 template <class T>
-HWY_INLINE Decomposed<T> Decompose(T x) {
+FACET_INLINE Decomposed<T> Decompose(T x) {
   using I = IntOf<T>;
   constexpr std::int32_t kSqrtHalf = 0x3F3504F3;
   const auto subnormal = x < T(0x1p-126f);
@@ -79,7 +79,7 @@ HWY_INLINE Decomposed<T> Decompose(T x) {
 
 // 2^(n + f) for whole n in [-200, 200] and |f| <= 0.51.
 template <class T>
-HWY_INLINE T Exp2OfParts(T n, T f) {
+FACET_INLINE T Exp2OfParts(T n, T f) {
   constexpr float kRest[] = {0x1.62e43p-1f,   0x1.ebfbep-3f,   0x1.c6b06cp-5f, 0x1.3b2a54p-7f,
                              0x1.5da97cp-10f, 0x1.44175ep-13f, 0x1.da62dcp-17f};
   return ScaleByPowerOfTwo(T(1.0f) + f * Polynomial(f, kRest), TruncateToInt(n));
@@ -89,7 +89,7 @@ HWY_INLINE T Exp2OfParts(T n, T f) {
 
 // 2^x. Below 1.1 ULP, subnormal results included.
 template <class T>
-HWY_INLINE T Exp2(T x) {
+FACET_INLINE T Exp2(T x) {
   const T bounded = Clamp(x, T(-151.0f), T(129.0f));  // beyond lie 0 and infinity
   const T n = RoundEven(bounded);
   return Select(x == x, Exp2OfParts(n, bounded - n), x);
@@ -97,7 +97,7 @@ HWY_INLINE T Exp2(T x) {
 
 // e^x. Below 1 ULP, subnormal results included.
 template <class T>
-HWY_INLINE T Exp(T x) {
+FACET_INLINE T Exp(T x) {
   constexpr float kRest[] = {0x1p-1f, 0x1.555556p-3f, 0x1.5555p-5f, 0x1.110fc8p-7f, 0x1.6d308ep-10f, 0x1.a2cb1cp-13f};
   const T bounded = Clamp(x, T(-104.5f), T(89.5f));
   const T n = RoundEven(bounded * T(0x1.715476p+0f));
@@ -109,7 +109,7 @@ HWY_INLINE T Exp(T x) {
 
 // log2 x. Below 1.1 ULP. Log2(+-0) is -infinity, of a negative number NaN.
 template <class T>
-HWY_INLINE T Log2(T x) {
+FACET_INLINE T Log2(T x) {
   constexpr float kRest[] = {-0x1.715476p-1f, 0x1.ec7094p-2f,  -0x1.7154c6p-2f, 0x1.277c44p-2f, -0x1.ec654ap-3f,
                              0x1.a476bep-3f,  -0x1.6fe35ep-3f, 0x1.5e1a2ap-3f,  -0x1.517e4p-3f, 0x1.82fa3ap-4f};
   const auto regular = (x > T(0.0f)) & (x < T(HUGE_VALF));
@@ -128,7 +128,7 @@ HWY_INLINE T Log2(T x) {
 
 // ln x. Below 1 ULP. Log(+-0) is -infinity, of a negative number NaN.
 template <class T>
-HWY_INLINE T Log(T x) {
+FACET_INLINE T Log(T x) {
   constexpr float kRest[] = {0x1.555554p-2f,  -0x1.fffff2p-3f, 0x1.999d3ep-3f,  -0x1.555ea6p-3f, 0x1.23d80ep-3f,
                              -0x1.fc6382p-4f, 0x1.dd9aaep-4f,  -0x1.d9bfccp-4f, 0x1.24bac2p-4f};
   const auto regular = (x > T(0.0f)) & (x < T(HUGE_VALF));
@@ -150,7 +150,7 @@ struct TwoFloats {
 
 // log2 x of finite x > 0 to about 2^-29 of its value, as the sum of two floats.
 template <class T>
-HWY_INLINE TwoFloats<T> ExtendedLog2(T x) {
+FACET_INLINE TwoFloats<T> ExtendedLog2(T x) {
   constexpr float kRest[] = {0x1.ec709ep-1f, 0x1.2776b4p-1f, 0x1.a5f092p-2f, 0x1.55c93p-2f};
   const Decomposed<T> d = Decompose(x);
   // log2(m) = (2 / ln 2) (s + s^3 / 3 + s^5 / 5 + ...) with s = (m - 1) / (m + 1), s to 36 bits.
@@ -174,7 +174,7 @@ HWY_INLINE TwoFloats<T> ExtendedLog2(T x) {
 // x^y for x >= 0; NaN for x < 0 (-0 counts as 0). Below 6 ULP (docs/determinism.md). Pow(x, 0) = Pow(1, y) = 1, even
 // for NaN.
 template <class T>
-HWY_INLINE T Pow(T x, T y) {
+FACET_INLINE T Pow(T x, T y) {
   const T zero = T(0.0f), one = T(1.0f), infinity = T(HUGE_VALF);
   const auto regular = (x > zero) & (x < infinity);
   const TwoFloats<T> log = ExtendedLog2(Select(regular, x, one));
@@ -197,7 +197,7 @@ HWY_INLINE T Pow(T x, T y) {
 
 // The cube root, of negative numbers too. Below 1 ULP.
 template <class T>
-HWY_INLINE T Cbrt(T x) {
+FACET_INLINE T Cbrt(T x) {
   const T magnitude = Abs(x);
   const auto regular = (magnitude > T(0.0f)) & (magnitude < T(HUGE_VALF));
   const T a = Select(regular, magnitude, T(1.0f));
@@ -215,7 +215,7 @@ struct ReducedAngle {
   IntOf<T> quadrant;
 };
 template <class T>
-HWY_INLINE ReducedAngle<T> ReduceAngle(T magnitude) {
+FACET_INLINE ReducedAngle<T> ReduceAngle(T magnitude) {
   // pi/2 in parts of 7 bits (Cody and Waite, 1980, Software Manual for the Elementary Functions): n has 17 at most, so
   // each product is exact; so are the first differences, and what the next ones lose is kept.
   const T n = RoundEven(Min(magnitude, T(0x1p30f)) * T(0x1.45f306p-1f));
@@ -236,7 +236,7 @@ HWY_INLINE ReducedAngle<T> ReduceAngle(T magnitude) {
 
 // sin of the angle turned by quarter_turns pi/2.
 template <class T>
-HWY_INLINE T SinOfReduced(const ReducedAngle<T>& a, IntOf<T> quarter_turns) {
+FACET_INLINE T SinOfReduced(const ReducedAngle<T>& a, IntOf<T> quarter_turns) {
   using I = IntOf<T>;
   constexpr float kSin[] = {-0x1.555556p-3f, 0x1.111198p-7f, -0x1.a08312p-13f, 0x1.877534p-19f};
   constexpr float kCos[] = {0x1.555556p-5f, -0x1.6c17d4p-10f, 0x1.a0f596p-16f, -0x1.58df86p-22f};
@@ -253,7 +253,7 @@ HWY_INLINE T SinOfReduced(const ReducedAngle<T>& a, IntOf<T> quarter_turns) {
 
 // sin x, x in radians. Below 1 ULP for |x| <= 2^17; a number in [-1, 1] without meaning beyond; NaN for infinite x.
 template <class T>
-HWY_INLINE T Sin(T x) {
+FACET_INLINE T Sin(T x) {
   const T magnitude = Abs(x);
   const T result = SinOfReduced(ReduceAngle(magnitude), IntOf<T>(0));
   const T sign_of_x = CopySign(T(1.0f), x);
@@ -262,14 +262,14 @@ HWY_INLINE T Sin(T x) {
 
 // cos x, x in radians. Below 1 ULP for |x| <= 2^17; a number in [-1, 1] without meaning beyond; NaN for infinite x.
 template <class T>
-HWY_INLINE T Cos(T x) {
+FACET_INLINE T Cos(T x) {
   const T magnitude = Abs(x);
   return Select(magnitude < T(HUGE_VALF), SinOfReduced(ReduceAngle(magnitude), IntOf<T>(1)), QuietNan<T>());
 }
 
 // The angle of the vector (x, y) in [-pi, pi]. Below 2 ULP. Zeros and infinities as in C: Atan2(+-0, -0) = +-pi.
 template <class T>
-HWY_INLINE T Atan2(T y, T x) {
+FACET_INLINE T Atan2(T y, T x) {
   constexpr float kRest[] = {-0x1.555556p-2f, 0x1.9999bep-3f,  -0x1.2490b8p-3f, 0x1.c6a61cp-4f,  -0x1.6ff086p-4f,
                              0x1.256f7cp-4f,  -0x1.a1f138p-5f, 0x1.ce2572p-6f,  -0x1.4b1c42p-7f, 0x1.bbab1ep-10f};
   const T a = Abs(x), b = Abs(y);
@@ -291,7 +291,7 @@ HWY_INLINE T Atan2(T y, T x) {
 
 // asin(s) - s over s for s^2 = z <= 1/4.
 template <class T>
-HWY_INLINE T AsinRest(T z) {
+FACET_INLINE T AsinRest(T z) {
   constexpr float kRest[] = {0x1.555554p-3f, 0x1.3334c6p-4f, 0x1.6d40ccp-5f,
                              0x1.ff8616p-6f, 0x1.10f0eap-6f, 0x1.19ecf4p-5f};
   return z * Polynomial(z, kRest);
@@ -299,7 +299,7 @@ HWY_INLINE T AsinRest(T z) {
 
 // asin x in [-pi/2, pi/2]. Below 1 ULP; NaN for |x| > 1.
 template <class T>
-HWY_INLINE T Asin(T x) {
+FACET_INLINE T Asin(T x) {
   const T magnitude = Abs(x);
   const auto outer = magnitude > T(0.5f);
   const T z = Select(outer, (T(1.0f) - magnitude) * T(0.5f), magnitude * magnitude);
@@ -315,7 +315,7 @@ HWY_INLINE T Asin(T x) {
 
 // acos x in [0, pi]. Below 1.5 ULP; NaN for |x| > 1.
 template <class T>
-HWY_INLINE T Acos(T x) {
+FACET_INLINE T Acos(T x) {
   const T magnitude = Abs(x);
   const auto outer = magnitude > T(0.5f);
   const T z = Select(outer, (T(1.0f) - magnitude) * T(0.5f), magnitude * magnitude);
@@ -329,17 +329,17 @@ HWY_INLINE T Acos(T x) {
 
 // --- The same for double --------------------------------------------------------------------------------------------
 
-HWY_INLINE double Exp2(double x) { return ::facet::Exp2(x); }
-HWY_INLINE double Exp(double x) { return ::facet::Exp(x); }
-HWY_INLINE double Log2(double x) { return ::facet::Log2(x); }
-HWY_INLINE double Log(double x) { return ::facet::Log(x); }
-HWY_INLINE double Pow(double x, double y) { return ::facet::Pow(x, y); }
-HWY_INLINE double Cbrt(double x) { return ::facet::Cbrt(x); }
-HWY_INLINE double Sin(double x) { return ::facet::Sin(x); }
-HWY_INLINE double Cos(double x) { return ::facet::Cos(x); }
-HWY_INLINE double Atan2(double y, double x) { return ::facet::Atan2(y, x); }
-HWY_INLINE double Asin(double x) { return ::facet::Asin(x); }
-HWY_INLINE double Acos(double x) { return ::facet::Acos(x); }
+FACET_INLINE double Exp2(double x) { return ::facet::Exp2(x); }
+FACET_INLINE double Exp(double x) { return ::facet::Exp(x); }
+FACET_INLINE double Log2(double x) { return ::facet::Log2(x); }
+FACET_INLINE double Log(double x) { return ::facet::Log(x); }
+FACET_INLINE double Pow(double x, double y) { return ::facet::Pow(x, y); }
+FACET_INLINE double Cbrt(double x) { return ::facet::Cbrt(x); }
+FACET_INLINE double Sin(double x) { return ::facet::Sin(x); }
+FACET_INLINE double Cos(double x) { return ::facet::Cos(x); }
+FACET_INLINE double Atan2(double y, double x) { return ::facet::Atan2(y, x); }
+FACET_INLINE double Asin(double x) { return ::facet::Asin(x); }
+FACET_INLINE double Acos(double x) { return ::facet::Acos(x); }
 
 }  // namespace HWY_NAMESPACE
 }  // namespace facet

@@ -31,29 +31,29 @@ using IntOf = typename IntTraits<T>::Type;
 
 // --- The scalar integers, corresponding to Int ----- ----------------------------------------------------------------
 
-HWY_INLINE std::int32_t Select(bool m, std::int32_t a, std::int32_t b) { return m ? a : b; }
-HWY_INLINE std::int32_t Min(std::int32_t a, std::int32_t b) { return a < b ? a : b; }
-HWY_INLINE std::int32_t Max(std::int32_t a, std::int32_t b) { return a > b ? a : b; }
+FACET_INLINE std::int32_t Select(bool m, std::int32_t a, std::int32_t b) { return m ? a : b; }
+FACET_INLINE std::int32_t Min(std::int32_t a, std::int32_t b) { return a < b ? a : b; }
+FACET_INLINE std::int32_t Max(std::int32_t a, std::int32_t b) { return a > b ? a : b; }
 template <int kBits>
-HWY_INLINE std::int32_t ShiftLeft(std::int32_t a) {
+FACET_INLINE std::int32_t ShiftLeft(std::int32_t a) {
   return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) << kBits);
 }
 template <int kBits>
-HWY_INLINE std::int32_t ShiftRightArithmetic(std::int32_t a) {
+FACET_INLINE std::int32_t ShiftRightArithmetic(std::int32_t a) {
   return a >> kBits;
 }
 template <int kBits>
-HWY_INLINE std::int32_t ShiftRightLogical(std::int32_t a) {
+FACET_INLINE std::int32_t ShiftRightLogical(std::int32_t a) {
   return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) >> kBits);
 }
 
 // Rounds towards zero. The caller ensures the range (Clamp turns a NaN into the lower bound).
 template <class T, RequireScalar<T> = 0>
-HWY_INLINE std::int32_t TruncateToInt(T a) {
+FACET_INLINE std::int32_t TruncateToInt(T a) {
   return static_cast<std::int32_t>(a);
 }
 template <class T>
-HWY_INLINE T FromInt(IntOf<T> a) {
+FACET_INLINE T FromInt(IntOf<T> a) {
   if constexpr (std::is_same_v<T, Float>) {
     return ToFloat(a);
   } else {
@@ -65,7 +65,7 @@ HWY_INLINE T FromInt(IntOf<T> a) {
 
 // Loads the value at p, or one for each lane from p on.
 template <class T>
-HWY_INLINE T Load(const float* p) {
+FACET_INLINE T Load(const float* p) {
   if constexpr (std::is_same_v<T, Float>) {
     return LoadFloat(p);
   } else {
@@ -73,7 +73,7 @@ HWY_INLINE T Load(const float* p) {
   }
 }
 template <class T>
-HWY_INLINE IntOf<T> LoadIntOf(const std::int32_t* p) {
+FACET_INLINE IntOf<T> LoadIntOf(const std::int32_t* p) {
   if constexpr (std::is_same_v<T, Float>) {
     return LoadInt(p);
   } else {
@@ -83,32 +83,32 @@ HWY_INLINE IntOf<T> LoadIntOf(const std::int32_t* p) {
 
 // p[index] as T.
 template <class T>
-HWY_INLINE T Fetch(const float* p, IntOf<T> index) {
+FACET_INLINE T Fetch(const float* p, IntOf<T> index) {
   if constexpr (std::is_same_v<T, Float>) {
     return Gather(p, index);
   } else {
     return static_cast<T>(p[index]);
   }
 }
-HWY_INLINE Int FetchInt(const std::int32_t* p, Int index) { return Gather(p, index); }
-HWY_INLINE std::int32_t FetchInt(const std::int32_t* p, std::int32_t index) { return p[index]; }
+FACET_INLINE Int FetchInt(const std::int32_t* p, Int index) { return Gather(p, index); }
+FACET_INLINE std::int32_t FetchInt(const std::int32_t* p, std::int32_t index) { return p[index]; }
 
 // p[index] for a table of 16 entries, which fits registers.
-HWY_INLINE Int FetchOf16(const std::int32_t* p, Int index) {
+FACET_INLINE Int FetchOf16(const std::int32_t* p, Int index) {
 #if HWY_TARGET == HWY_AVX3
   return hn::TableLookupLanes(hn::LoadU(IntTag(), p), hn::IndicesFromVec(IntTag(), index.raw));
 #else
   return Gather(p, index);
 #endif
 }
-HWY_INLINE std::int32_t FetchOf16(const std::int32_t* p, std::int32_t index) { return p[index]; }
+FACET_INLINE std::int32_t FetchOf16(const std::int32_t* p, std::int32_t index) { return p[index]; }
 
 // Loads of several adjacent values, p[index], p[index + 1] and so on, for each lane: one vector load per lane, and a
 // transposition. Processors gather element by element, so one gather for each value would take several times as long.
 #if HWY_TARGET != HWY_SCALAR
 // The 16 bytes at p + at[0], those at p + at[4], and so on, for every fourth lane, in one vector.
 template <class D, class Number>
-HWY_INLINE hn::Vec<D> EveryFourthRow(D d, const Number* p, const std::int32_t* at) {
+FACET_INLINE hn::Vec<D> EveryFourthRow(D d, const Number* p, const std::int32_t* at) {
   constexpr std::size_t kRows = hn::MaxLanes(D()) * sizeof(hn::TFromD<D>) / 16;
   if constexpr (kRows == 1) {
     return hn::LoadU(d, p + at[0]);
@@ -119,7 +119,7 @@ HWY_INLINE hn::Vec<D> EveryFourthRow(D d, const Number* p, const std::int32_t* a
 }
 // Transposes: rows[j] has four values each of lanes j, j + 4 and so on; the results have one value of every lane.
 template <class D>
-HWY_INLINE void Transpose(D d, const hn::Vec<D> (&rows)[4], hn::Vec<D>* out) {
+FACET_INLINE void Transpose(D d, const hn::Vec<D> (&rows)[4], hn::Vec<D>* out) {
   const auto xy02 = hn::InterleaveLower(d, rows[0], rows[2]), zw02 = hn::InterleaveUpper(d, rows[0], rows[2]);
   const auto xy13 = hn::InterleaveLower(d, rows[1], rows[3]), zw13 = hn::InterleaveUpper(d, rows[1], rows[3]);
   out[0] = hn::InterleaveLower(d, xy02, xy13);
@@ -128,7 +128,7 @@ HWY_INLINE void Transpose(D d, const hn::Vec<D> (&rows)[4], hn::Vec<D>* out) {
   out[3] = hn::InterleaveUpper(d, zw02, zw13);
 }
 template <class D, class Number>
-HWY_INLINE void TransposedRows(D d, const Number* p, const std::int32_t* at, hn::Vec<D>* out) {
+FACET_INLINE void TransposedRows(D d, const Number* p, const std::int32_t* at, hn::Vec<D>* out) {
   const hn::Vec<D> rows[4] = {EveryFourthRow(d, p, at), EveryFourthRow(d, p, at + 1),
                               EveryFourthRow(d, p, at + 2), EveryFourthRow(d, p, at + 3)};
   Transpose(d, rows, out);
@@ -140,7 +140,7 @@ template <class T>
 struct IndexList {
   static constexpr int kLanes = sizeof(IntOf<T>) / sizeof(std::int32_t);
   alignas(IntOf<T>) std::int32_t of_lane[kLanes];
-  HWY_INLINE void operator=(IntOf<T> index) {
+  FACET_INLINE void operator=(IntOf<T> index) {
     if constexpr (std::is_same_v<T, Float>) {
       Store(index, of_lane);
     } else {
@@ -150,7 +150,7 @@ struct IndexList {
 };
 
 template <class T>
-HWY_INLINE Vec4<T> FetchVec4(const float* p, IntOf<T> index) {
+FACET_INLINE Vec4<T> FetchVec4(const float* p, IntOf<T> index) {
   if constexpr (!std::is_same_v<T, Float>) {
     return {Fetch<T>(p, index), Fetch<T>(p + 1, index), Fetch<T>(p + 2, index), Fetch<T>(p + 3, index)};
   } else {
@@ -170,7 +170,7 @@ HWY_INLINE Vec4<T> FetchVec4(const float* p, IntOf<T> index) {
 // of which a fourth must be readable. Components are weighted in memory order and only the sums are transposed, which
 // takes a quarter of the shuffles.
 template <class T>
-HWY_INLINE Vec3<T> WeighFour(const float* p, const IntOf<T> (&i)[4], const T (&w)[4]) {
+FACET_INLINE Vec3<T> WeighFour(const float* p, const IntOf<T> (&i)[4], const T (&w)[4]) {
 #if HWY_TARGET != HWY_SCALAR
   if constexpr (std::is_same_v<T, Float>) {
     const FloatTag d;
@@ -201,7 +201,7 @@ struct TablePosition {
   T fraction;
 };
 template <class T>
-HWY_INLINE TablePosition<T> PositionInTable(T x, float last) {
+FACET_INLINE TablePosition<T> PositionInTable(T x, float last) {
   const T clamped = Clamp(x, T(0.0f), T(last));
   const T cell = Min(Floor(clamped), T(last - 1.0f));
   return {TruncateToInt(cell), clamped - cell};

@@ -4,7 +4,7 @@
 //   FACET_SHADER_BEGIN
 //   struct Toon {
 //     template <class T>
-//     HWY_INLINE Shaded<T> operator()(const Surface<T>& surface, const MaterialView<T>& material,
+//     FACET_INLINE Shaded<T> operator()(const Surface<T>& surface, const MaterialView<T>& material,
 //                                     const LightingView<T>& lighting) const { ... }
 //   };
 //   FACET_SHADER_END

@@ -31,9 +31,9 @@ struct AnisotropicMicrofacets {
   T perceptual_roughness{};  // across the tangent, clamped
   T strength{};
 
-  HWY_INLINE AnisotropicMicrofacets() {}  // for a lobe that a material does not have
+  FACET_INLINE AnisotropicMicrofacets() {}  // for a lobe that a material does not have
 
-  HWY_INLINE AnisotropicMicrofacets(T roughness, const AnisotropyInputs<T>& in)
+  FACET_INLINE AnisotropicMicrofacets(T roughness, const AnisotropyInputs<T>& in)
       : tangent(in.tangent), bitangent(in.bitangent), strength(in.strength) {
     perceptual_roughness = Clamp(roughness, T(kMinPerceptualRoughness), T(1.0f));
     alpha_b = AlphaFromPerceptualRoughness(perceptual_roughness);
@@ -43,15 +43,15 @@ struct AnisotropicMicrofacets {
   // The albedo for light from, or to, a direction. `cosine`: its cosine with the normal. Light from behind has the
   // albedo of the direction that is mirrored to the front, whose cosine with the tangent is the same.
   template <class Lighting>
-  HWY_INLINE SpecularAlbedo<T> Albedo(const Vec3<T>& direction, T cosine, const Lighting& lighting) const {
+  FACET_INLINE SpecularAlbedo<T> Albedo(const Vec3<T>& direction, T cosine, const Lighting& lighting) const {
     return lighting.AnisotropicDfg(cosine, Dot(tangent, direction), perceptual_roughness, strength);
   }
   template <class Lighting>
-  HWY_INLINE SpecularAlbedo<T> AverageAlbedo(const Lighting& lighting) const {
+  FACET_INLINE SpecularAlbedo<T> AverageAlbedo(const Lighting& lighting) const {
     return lighting.AnisotropicDfgAverage(perceptual_roughness, strength);
   }
 
-  HWY_INLINE T Single(const SurfaceView<T>& at, const Vec3<T>& light, const Incidence<T>& from) const {
+  FACET_INLINE T Single(const SurfaceView<T>& at, const Vec3<T>& light, const Incidence<T>& from) const {
     const T distribution = DistributionGgxAnisotropic(Dot(tangent, from.half), Dot(bitangent, from.half),
                                                       Max(Dot(at.normal, from.half), T(0.0f)), alpha_t, alpha_b);
     const T from_view = from.n_dot_l * Length(at.view, at.n_dot_v),
@@ -63,7 +63,7 @@ struct AnisotropicMicrofacets {
   // tangent, each blurred as the surface is rough across it. The tilts have equal shares of GGX's slopes; their weights
   // are those of visible normals, and of the light that is not shadowed. `unclamped_roughness`: the material's.
   template <class Lighting>
-  HWY_INLINE Vec3<T> Prefiltered(const SurfaceView<T>& at, T unclamped_roughness, const Lighting& lighting) const {
+  FACET_INLINE Vec3<T> Prefiltered(const SurfaceView<T>& at, T unclamped_roughness, const Lighting& lighting) const {
     constexpr int kTilts = 16;
     const T spread = Sqrt(Max(alpha_t * alpha_t - alpha_b * alpha_b, T(0.0f)));
     // The gaps between tilts are filled by blur, which is needed less where the surface itself is rough.
@@ -92,7 +92,7 @@ struct AnisotropicMicrofacets {
   static constexpr float kGapShare = 1.0f;
 
   // Of the direction, stretched by the roughness: the term of Smith's masking.
-  HWY_INLINE T Length(const Vec3<T>& direction, T n_dot) const {
+  FACET_INLINE T Length(const Vec3<T>& direction, T n_dot) const {
     const T t = alpha_t * Dot(tangent, direction), b = alpha_b * Dot(bitangent, direction);
     return Sqrt(t * t + b * b + n_dot * n_dot);
   }

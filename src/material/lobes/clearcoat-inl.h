@@ -30,11 +30,11 @@ struct ClearcoatLobe {
   T multiple_fresnel{}, multiple_scale{};  // as in SpecularLobe
   SpecularAlbedo<T> albedo;
 
-  HWY_INLINE ClearcoatLobe() {}  // for a lobe that a material does not have
+  FACET_INLINE ClearcoatLobe() {}  // for a lobe that a material does not have
 
   template <class Lighting>
-  HWY_INLINE ClearcoatLobe(const ClearcoatInputs<T>& in, T footprint_alpha2, const Vec3<T>& view,
-                           const Lighting& lighting)
+  FACET_INLINE ClearcoatLobe(const ClearcoatInputs<T>& in, T footprint_alpha2, const Vec3<T>& view,
+                             const Lighting& lighting)
       : at{in.normal, view, Clamp(Dot(in.normal, view), T(kMinNDotV), T(1.0f))},
         microfacets(DrawnRoughness(in.perceptual_roughness, footprint_alpha2)),
         factor(Clamp(in.factor, T(0.0f), T(1.0f))) {
@@ -46,7 +46,7 @@ struct ClearcoatLobe {
 
   // The BRDF times the cosine with the coat's normal; zero below its horizon.
   template <class Lighting>
-  HWY_INLINE T Direct(const Vec3<T>& light, const Lighting& lighting) const {
+  FACET_INLINE T Direct(const Vec3<T>& light, const Lighting& lighting) const {
     const Incidence<T> from = IncidenceFrom(at, light);
     const SpecularAlbedo<T> light_albedo = lighting.Dfg(from.n_dot_l, microfacets.perceptual_roughness);
     const T single = FresnelSchlick(T(kDielectricF0), from.v_dot_h) * microfacets.Single(at, from);
@@ -56,7 +56,7 @@ struct ClearcoatLobe {
 
   // `unclamped_roughness`: the material's.
   template <class Lighting>
-  HWY_INLINE Vec3<T> Environment(T unclamped_roughness, T footprint_alpha2, const Lighting& lighting) const {
+  FACET_INLINE Vec3<T> Environment(T unclamped_roughness, T footprint_alpha2, const Lighting& lighting) const {
     const Vec3<T> prefiltered =
         lighting.Prefiltered(microfacets.DominantDirection(at), unclamped_roughness, footprint_alpha2);
     const T single = factor * (T(kDielectricF0) * albedo.a + albedo.b);
@@ -65,7 +65,7 @@ struct ClearcoatLobe {
   }
 
   // The share of light that it lets pass towards the view.
-  HWY_INLINE T EnergyLeft() const {
+  FACET_INLINE T EnergyLeft() const {
     const T reflected = T(kDielectricF0) * albedo.a + albedo.b + multiple_fresnel * LostEnergy(albedo);
     return Max(T(1.0f) - factor * reflected, T(0.0f));
   }

@@ -22,20 +22,20 @@ struct DiffuseLobe {
   T left_for_view{};  // 1 - Ed(v)
   T scale{};          // 1 / (pi (1 - Ed_avg))
 
-  HWY_INLINE DiffuseLobe() {}  // for a lobe that a material does not have
+  FACET_INLINE DiffuseLobe() {}  // for a lobe that a material does not have
 
-  HWY_INLINE DiffuseLobe(const Vec3<T>& base_color, T metallic, const SpecularLobe<T>& above) {
+  FACET_INLINE DiffuseLobe(const Vec3<T>& base_color, T metallic, const SpecularLobe<T>& above) {
     color = base_color * (T(1.0f) - metallic);
     left_for_view = above.EnergyLeftByDielectric(above.albedo);
     scale = T(kInversePi) / Max(above.EnergyLeftByDielectric(above.average_albedo), T(1e-6f));
   }
 
   // `light_albedo`: of the specular lobe, at n_dot_l.
-  HWY_INLINE Vec3<T> Direct(const SpecularLobe<T>& above, SpecularAlbedo<T> light_albedo) const {
+  FACET_INLINE Vec3<T> Direct(const SpecularLobe<T>& above, SpecularAlbedo<T> light_albedo) const {
     return color * (left_for_view * above.EnergyLeftByDielectric(light_albedo) * scale);
   }
 
-  HWY_INLINE EnvironmentTerms<T> Environment() const { return {{}, color * left_for_view}; }
+  FACET_INLINE EnvironmentTerms<T> Environment() const { return {{}, color * left_for_view}; }
 };
 
 }  // namespace HWY_NAMESPACE

@@ -25,10 +25,10 @@ template <class T>
 struct DiffuseTransmissionLobe {
   Vec3<T> color;  // (1 - metallic) * factor * colour
 
-  HWY_INLINE DiffuseTransmissionLobe() {}  // for a lobe that a material does not have
+  FACET_INLINE DiffuseTransmissionLobe() {}  // for a lobe that a material does not have
 
   // Takes its share from the diffuse reflection.
-  HWY_INLINE DiffuseTransmissionLobe(const DiffuseTransmissionInputs<T>& in, T metallic, DiffuseLobe<T>& diffuse) {
+  FACET_INLINE DiffuseTransmissionLobe(const DiffuseTransmissionInputs<T>& in, T metallic, DiffuseLobe<T>& diffuse) {
     const T factor = Clamp(in.factor, T(0.0f), T(1.0f));
     color = in.color * (factor * (T(1.0f) - metallic));
     diffuse.color = diffuse.color * (T(1.0f) - factor);
@@ -37,16 +37,16 @@ struct DiffuseTransmissionLobe {
   // The BTDF times the cosine, for light from behind. `behind`: the cosine of the light with the normal that points
   // away from the viewer. `albedo_at`: of a cosine, the specular lobe's albedo for the light's direction.
   template <class AlbedoAt>
-  HWY_INLINE Vec3<T> Direct(const DiffuseLobe<T>& diffuse, const SpecularLobe<T>& above, T behind,
-                            const AlbedoAt& albedo_at) const {
+  FACET_INLINE Vec3<T> Direct(const DiffuseLobe<T>& diffuse, const SpecularLobe<T>& above, T behind,
+                              const AlbedoAt& albedo_at) const {
     const T cosine = Clamp(behind, T(0.0f), T(1.0f));
     const T left_for_light = above.EnergyLeftByDielectric(albedo_at(cosine));
     return color * (diffuse.left_for_view * left_for_light * diffuse.scale * cosine);
   }
 
   template <class Lighting>
-  HWY_INLINE Vec3<T> Environment(const SurfaceView<T>& at, const DiffuseLobe<T>& diffuse,
-                                 const Lighting& lighting) const {
+  FACET_INLINE Vec3<T> Environment(const SurfaceView<T>& at, const DiffuseLobe<T>& diffuse,
+                                   const Lighting& lighting) const {
     return color * diffuse.left_for_view * lighting.IrradianceOverPi(-at.normal);
   }
 };

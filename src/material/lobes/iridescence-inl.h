@@ -27,7 +27,7 @@ struct FilmInputs {
 
 template <class T>
 struct ThinFilm {
-  HWY_INLINE ThinFilm(const FilmInputs<T>& in, T n_dot_v)
+  FACET_INLINE ThinFilm(const FilmInputs<T>& in, T n_dot_v)
       : weight_(Clamp(in.factor, T(0.0f), T(1.0f))), cosine_(n_dot_v) {
     // A film of thickness 0 is none, and becomes one continuously (the extension's text).
     const T fade = Clamp(in.thickness_nm * T(1.0f / 0.03f), T(0.0f), T(1.0f));
@@ -45,7 +45,7 @@ struct ThinFilm {
   }
 
   // The reflectance at normal incidence that stands for the film over `base`.
-  HWY_INLINE Vec3<T> F0Over(const Vec3<T>& base) const {
+  FACET_INLINE Vec3<T> F0Over(const Vec3<T>& base) const {
     const Vec3<T> film = Reflectance(base);
     return {Fold(base.x, film.x), Fold(base.y, film.y), Fold(base.z, film.z)};
   }
@@ -54,14 +54,14 @@ struct ThinFilm {
   // The F0 with which Schlick's Fresnel gives this reflectance at the angle of the view. Near grazing angles Schlick's
   // term is close to 1 whatever F0 is, so that F0 would be a quotient of two rounding errors: within half a degree of
   // them the film fades out.
-  HWY_INLINE T Fold(T base, T reflectance) const {
+  FACET_INLINE T Fold(T base, T reflectance) const {
     constexpr float kLeastRest = 0.05f;
     const T rest = Max(T(1.0f) - SchlickWeight(cosine_), T(kLeastRest));
     return Clamp(base + weight_ * (reflectance - FresnelSchlick(base, cosine_)) / rest, T(0.0f), T(1.0f));
   }
 
   // At the angle of the view, as a colour in [0, 1].
-  HWY_INLINE Vec3<T> Reflectance(const Vec3<T>& base) const {
+  FACET_INLINE Vec3<T> Reflectance(const Vec3<T>& base) const {
     const T through = (T(1.0f) - first_) * (T(1.0f) - first_);
     const auto second = [&](T f0) HWY_ATTR {
       const T n = IndexOf(f0) / ior_;
@@ -88,9 +88,9 @@ struct ThinFilm {
     return {Max(sum.x, T(0.0f)), Max(sum.y, T(0.0f)), Max(sum.z, T(0.0f))};
   }
 
-  static HWY_INLINE T Bounded(T r) { return Clamp(r, T(1e-5f), T(0.9999f)); }
+  static FACET_INLINE T Bounded(T r) { return Clamp(r, T(1e-5f), T(0.9999f)); }
   // Of the medium whose reflectance in air this is.
-  static HWY_INLINE T IndexOf(T f0) {
+  static FACET_INLINE T IndexOf(T f0) {
     const T root = Sqrt(Clamp(f0, T(0.0f), T(0.9999f)));
     return (T(1.0f) + root) / (T(1.0f) - root);
   }
@@ -98,7 +98,7 @@ struct ThinFilm {
   // How strongly the eye sees the interference of waves with this difference of paths, as linear Rec. 709: Gaussians
   // fitted to the CIE 1931 responses in the Fourier domain (Belcour and Barla, 2017, supplemental material), divided by
   // the integral of the response to green.
-  static HWY_INLINE Vec3<T> Sensitivity(T path_nm) {
+  static FACET_INLINE Vec3<T> Sensitivity(T path_nm) {
     const T phase = path_nm * T(2.0f * kPi * 1e-9f);
     const T phase2 = phase * phase;
     const auto gaussian = [&](double height, float place, double variance) HWY_ATTR {

@@ -28,7 +28,7 @@ struct SpecularAlbedo {
 
 // The energy that single scattering loses.
 template <class T>
-HWY_INLINE T LostEnergy(SpecularAlbedo<T> albedo) {
+FACET_INLINE T LostEnergy(SpecularAlbedo<T> albedo) {
   return Max(T(1.0f) - (albedo.a + albedo.b), T(0.0f));
 }
 
@@ -54,7 +54,7 @@ struct Incidence {
 };
 
 template <class T>
-HWY_INLINE Incidence<T> IncidenceFrom(const SurfaceView<T>& at, const Vec3<T>& light) {
+FACET_INLINE Incidence<T> IncidenceFrom(const SurfaceView<T>& at, const Vec3<T>& light) {
   Incidence<T> from{};
   from.n_dot_l = Clamp(Dot(at.normal, light), T(0.0f), T(1.0f));
   from.half = NormalizeOr(at.view + light, at.normal);

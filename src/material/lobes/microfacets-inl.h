@@ -19,21 +19,21 @@ namespace HWY_NAMESPACE {
 // 4.9.3). It is close to the best under soft lamps (src/light/fit_dominant_direction.py measures it), and a little less
 // on smoother surfaces, which suits the small suns of photographed skies better.
 template <class T>
-HWY_INLINE T ToNormal(T alpha) {
+FACET_INLINE T ToNormal(T alpha) {
   return alpha * alpha * (T(1.5f) + alpha * (T(0.35f) - alpha * T(0.95f)));
 }
 
 // Where widening a lobe shows: not where the footprint is 0, nor where the lobe's own square of alpha is 64 times that,
 // so that the roughness would grow by less than 0.4 %. Most packets of rough surfaces are spared the arithmetic.
 template <class T>
-HWY_INLINE MaskOf<T> IsWidened(T perceptual_roughness, T footprint_alpha2) {
+FACET_INLINE MaskOf<T> IsWidened(T perceptual_roughness, T footprint_alpha2) {
   const T alpha = AlphaFromPerceptualRoughness(perceptual_roughness);
   return footprint_alpha2 > alpha * alpha * T(1.0f / 64.0f);
 }
 
 // The perceptual roughness of a lobe whose square of alpha grows by `footprint_alpha2`.
 template <class T>
-HWY_INLINE T WidenedRoughness(T perceptual_roughness, T footprint_alpha2) {
+FACET_INLINE T WidenedRoughness(T perceptual_roughness, T footprint_alpha2) {
   const MaskOf<T> wider = IsWidened(perceptual_roughness, footprint_alpha2);
   if (!Any(wider)) return perceptual_roughness;
   const T alpha = AlphaFromPerceptualRoughness(perceptual_roughness);
@@ -42,7 +42,7 @@ HWY_INLINE T WidenedRoughness(T perceptual_roughness, T footprint_alpha2) {
 
 // The same of a lobe that is at least as wide as those that are drawn (kMinPerceptualRoughness).
 template <class T>
-HWY_INLINE T DrawnRoughness(T perceptual_roughness, T footprint_alpha2) {
+FACET_INLINE T DrawnRoughness(T perceptual_roughness, T footprint_alpha2) {
   return WidenedRoughness(Max(perceptual_roughness, T(kMinPerceptualRoughness)), footprint_alpha2);
 }
 
@@ -51,30 +51,30 @@ struct Microfacets {
   T alpha{};                 // GGX's width
   T perceptual_roughness{};  // clamped
 
-  HWY_INLINE Microfacets() {}  // for a lobe that a material does not have
+  FACET_INLINE Microfacets() {}  // for a lobe that a material does not have
 
-  HWY_INLINE explicit Microfacets(T roughness) {
+  FACET_INLINE explicit Microfacets(T roughness) {
     perceptual_roughness = Clamp(roughness, T(kMinPerceptualRoughness), T(1.0f));
     alpha = AlphaFromPerceptualRoughness(perceptual_roughness);
   }
 
   // The single scattering without its Fresnel term: D V, in 1/steradian.
-  HWY_INLINE T Single(const SurfaceView<T>& at, const Incidence<T>& from) const {
+  FACET_INLINE T Single(const SurfaceView<T>& at, const Incidence<T>& from) const {
     return DistributionGgx(at.normal, from.half, alpha) * VisibilitySmith(from.n_dot_l, at.n_dot_v, alpha);
   }
 
   // The albedo for light from, or to, a direction. `cosine`: its cosine with the normal.
   template <class Lighting>
-  HWY_INLINE SpecularAlbedo<T> Albedo(const Vec3<T>& /*direction*/, T cosine, const Lighting& lighting) const {
+  FACET_INLINE SpecularAlbedo<T> Albedo(const Vec3<T>& /*direction*/, T cosine, const Lighting& lighting) const {
     return lighting.Dfg(cosine, perceptual_roughness);
   }
   template <class Lighting>
-  HWY_INLINE SpecularAlbedo<T> AverageAlbedo(const Lighting& lighting) const {
+  FACET_INLINE SpecularAlbedo<T> AverageAlbedo(const Lighting& lighting) const {
     return lighting.DfgAverage(perceptual_roughness);
   }
 
   // The dominant direction of the reflection. It lies between the mirror direction and the normal. Not normalised.
-  HWY_INLINE Vec3<T> DominantDirection(const SurfaceView<T>& at) const {
+  FACET_INLINE Vec3<T> DominantDirection(const SurfaceView<T>& at) const {
     const Vec3<T> mirror = at.normal * (T(2.0f) * Dot(at.normal, at.view)) - at.view;
     return Mix(mirror, at.normal, ToNormal(alpha));
   }

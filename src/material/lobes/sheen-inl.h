@@ -37,11 +37,11 @@ inline constexpr float kMinSheenRoughness = 0.07f;
 // Distribution of fibres, in 1/steradian; the integral of D(h) n_dot_h over the hemisphere is 1. `sin2_n_h` is 1 -
 // n_dot_h^2, from the cross product, which is precise where n and h nearly coincide.
 template <class T>
-HWY_INLINE T DistributionCharlieOfLog2(T log2_sin2_n_h, T inverse_alpha) {
+FACET_INLINE T DistributionCharlieOfLog2(T log2_sin2_n_h, T inverse_alpha) {
   return (T(2.0f) + inverse_alpha) * T(0.5f * kInversePi) * Exp2(log2_sin2_n_h * (T(0.5f) * inverse_alpha));
 }
 template <class T>
-HWY_INLINE T DistributionCharlie(T sin2_n_h, T inverse_alpha) {
+FACET_INLINE T DistributionCharlie(T sin2_n_h, T inverse_alpha) {
   return DistributionCharlieOfLog2(Log2(sin2_n_h), inverse_alpha);
 }
 
@@ -52,9 +52,9 @@ template <class T>
 struct CharlieMasking {
   T a{}, b{}, c{}, d{}, e{}, twice_at_half{};
 
-  HWY_INLINE CharlieMasking() {}  // for a lobe that a material does not have
+  FACET_INLINE CharlieMasking() {}  // for a lobe that a material does not have
 
-  HWY_INLINE explicit CharlieMasking(T alpha) {
+  FACET_INLINE explicit CharlieMasking(T alpha) {
     const T rest = T(1.0f) - alpha, smooth = rest * rest;
     a = Mix(T(21.5473f), T(25.3245f), smooth);
     b = Mix(T(3.82987f), T(3.32435f), smooth);
@@ -65,10 +65,10 @@ struct CharlieMasking {
   }
 
   // L. At 0 the power is that of a logarithm of minus infinity, which is 0.
-  HWY_INLINE T Exponent(T x) const { return a / (T(1.0f) + b * Exp2(c * Log2(x))) + d * x + e; }
+  FACET_INLINE T Exponent(T x) const { return a / (T(1.0f) + b * Exp2(c * Log2(x))) + d * x + e; }
 
   // `cosine`: in [0, 1].
-  HWY_INLINE T Lambda(T cosine) const {
+  FACET_INLINE T Lambda(T cosine) const {
     const auto grazing = cosine < T(0.5f);
     const T exponent = Exponent(Select(grazing, cosine, T(1.0f) - cosine));
     return Exp(Select(grazing, exponent, twice_at_half - exponent));
@@ -91,10 +91,10 @@ struct SheenLobe {
   T albedo{};  // E at n_dot_v, at most 1
   T scale{};   // of D V n_dot_l (1 + Lambda(v) + Lambda(l)): 1 / (4 n_dot_v max(1, E))
 
-  HWY_INLINE SheenLobe() {}  // for a lobe that a material does not have
+  FACET_INLINE SheenLobe() {}  // for a lobe that a material does not have
 
   template <class Lighting>
-  HWY_INLINE SheenLobe(const SurfaceView<T>& at, const SheenInputs<T>& in, const Lighting& lighting)
+  FACET_INLINE SheenLobe(const SurfaceView<T>& at, const SheenInputs<T>& in, const Lighting& lighting)
       : color(in.color),
         perceptual_roughness(Clamp(in.perceptual_roughness, T(kMinSheenRoughness), T(1.0f))),
         masking(AlphaFromPerceptualRoughness(perceptual_roughness)) {
@@ -105,7 +105,7 @@ struct SheenLobe {
     scale = T(0.25f) / (at.n_dot_v * Max(reflected, T(1.0f)));
   }
 
-  HWY_INLINE Vec3<T> Direct(const SurfaceView<T>& at, const Incidence<T>& from) const {
+  FACET_INLINE Vec3<T> Direct(const SurfaceView<T>& at, const Incidence<T>& from) const {
     const Vec3<T> cross = Cross(at.normal, from.half);
     const T distribution = DistributionCharlie(Dot(cross, cross), inverse_alpha);
     // V has a pole at 0, where n_dot_l, by which the closure multiplies it, would make 0 times infinity of it.
@@ -121,18 +121,18 @@ struct SheenLobe {
   // prefiltered for the roughness along the mirror direction 3.86, 2.19, 1.56 and 0.70. The best direction for each
   // roughness and angle gains less than 0.01 on this one (src/light/fit_sheen_direction.py measures all of them).
   template <class Lighting>
-  HWY_INLINE EnvironmentTerms<T> Environment(const SurfaceView<T>& at, const Lighting& lighting) const {
+  FACET_INLINE EnvironmentTerms<T> Environment(const SurfaceView<T>& at, const Lighting& lighting) const {
     return {color * lighting.IrradianceOverPi(DominantDirection(at)) * albedo, {}};
   }
 
   // Not normalised. Along the normal its length is the roughness, along the surface 0.4 sin(theta_v).
-  HWY_INLINE Vec3<T> DominantDirection(const SurfaceView<T>& at) const {
+  FACET_INLINE Vec3<T> DominantDirection(const SurfaceView<T>& at) const {
     const T to_view(0.4f);
     return at.normal * (perceptual_roughness - to_view * Dot(at.normal, at.view)) + at.view * to_view;
   }
 
   // The share of light that passes to what lies under the sheen and back.
-  HWY_INLINE T EnergyLeft() const { return T(1.0f) - MaxComponent(color) * albedo; }
+  FACET_INLINE T EnergyLeft() const { return T(1.0f) - MaxComponent(color) * albedo; }
 };
 
 }  // namespace HWY_NAMESPACE

@@ -39,12 +39,12 @@ struct SpecularLobe {
   SpecularAlbedo<T> average_albedo;
   T multiple_scale{};  // 1 / (pi (1 - Eavg))
 
-  HWY_INLINE SpecularLobe() {}  // for a lobe that a material does not have
+  FACET_INLINE SpecularLobe() {}  // for a lobe that a material does not have
 
   // `metal`: its F0. `metallic`: in [0, 1]. `is_default`: the base is the dielectric of core glTF, whose F0 is grey and
   // whose F90 is 1.
-  HWY_INLINE SpecularLobe(const Interface<T>& base, const Vec3<T>& metal, T metallic, bool is_default,
-                          SpecularAlbedo<T> view_albedo, SpecularAlbedo<T> average) {
+  FACET_INLINE SpecularLobe(const Interface<T>& base, const Vec3<T>& metal, T metallic, bool is_default,
+                            SpecularAlbedo<T> view_albedo, SpecularAlbedo<T> average) {
     albedo = view_albedo;
     average_albedo = average;
     const T e_avg = average.a + average.b;
@@ -66,7 +66,7 @@ struct SpecularLobe {
   }
 
   // `single`: D V of the microfacets. `light_albedo`: at n_dot_l.
-  HWY_INLINE Vec3<T> Direct(T single, T v_dot_h, SpecularAlbedo<T> light_albedo) const {
+  FACET_INLINE Vec3<T> Direct(T single, T v_dot_h, SpecularAlbedo<T> light_albedo) const {
     const T w = SchlickWeight(v_dot_h);
     const T rest = T(1.0f) - w, grazing = f90 * w;
     const Vec3<T> fresnel{f0.x * rest + grazing, f0.y * rest + grazing, f0.z * rest + grazing};
@@ -75,7 +75,7 @@ struct SpecularLobe {
   }
 
   // `prefiltered`: the environment, as the microfacets blur it.
-  HWY_INLINE EnvironmentTerms<T> Environment(const Vec3<T>& prefiltered) const {
+  FACET_INLINE EnvironmentTerms<T> Environment(const Vec3<T>& prefiltered) const {
     const T grazing = f90 * albedo.b;
     const Vec3<T> single = {f0.x * albedo.a + grazing, f0.y * albedo.a + grazing, f0.z * albedo.a + grazing};
     return {prefiltered * single, multiple_fresnel * LostEnergy(albedo)};
@@ -83,7 +83,7 @@ struct SpecularLobe {
 
   // The share of light that the dielectric's interface does not reflect, so that it reaches the base: 1 - Ed, with Ed =
   // F0 A + F90 B + Fms (1 - E). `of`: the albedo at some angle.
-  HWY_INLINE T EnergyLeftByDielectric(SpecularAlbedo<T> of) const {
+  FACET_INLINE T EnergyLeftByDielectric(SpecularAlbedo<T> of) const {
     const T reflected = dielectric_f0 * of.a + dielectric_f90 * of.b + dielectric_multiple_fresnel * LostEnergy(of);
     return Max(T(1.0f) - reflected, T(0.0f));
   }

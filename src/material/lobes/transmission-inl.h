@@ -37,12 +37,12 @@ struct TransmissionLobe {
   // What its single scattering loses, towards the view and on average.
   T lost_for_view{}, lost_average{};
 
-  HWY_INLINE TransmissionLobe() {}  // for a lobe that a material does not have
+  FACET_INLINE TransmissionLobe() {}  // for a lobe that a material does not have
 
   // `base`: clamped to 1. `roughness`: of the specular lobe.
   template <class Lighting>
-  HWY_INLINE TransmissionLobe(const TransmissionInputs<T>& in, const SurfaceView<T>& at, const Vec3<T>& base,
-                              T metallic, T roughness, const Lighting& lighting) {
+  FACET_INLINE TransmissionLobe(const TransmissionInputs<T>& in, const SurfaceView<T>& at, const Vec3<T>& base,
+                                T metallic, T roughness, const Lighting& lighting) {
     const T zero(0.0f), one(1.0f);
     color = base * (Clamp(in.factor, zero, one) * (one - metallic));
     const T bounded = Clamp(roughness, zero, one);
@@ -54,7 +54,7 @@ struct TransmissionLobe {
 
   // The BTDF times the cosine, for light from behind, before `color`.
   template <class Lighting>
-  HWY_INLINE T Direct(const SurfaceView<T>& at, const Vec3<T>& light, const Lighting& lighting) const {
+  FACET_INLINE T Direct(const SurfaceView<T>& at, const Vec3<T>& light, const Lighting& lighting) const {
     const T behind = -Dot(at.normal, light);
     const Vec3<T> mirrored = light + at.normal * (T(2.0f) * behind);
     const Incidence<T> from = IncidenceFrom(at, mirrored);
@@ -70,7 +70,7 @@ struct TransmissionLobe {
   //
   // That is the mirrored reflection of a thin wall. The facets of a volume refract: they deviate light by ior - 1 times
   // their tilt instead of twice.
-  HWY_INLINE T Spread(T thickness, T ior) const {
+  FACET_INLINE T Spread(T thickness, T ior) const {
     const T mirrored = unclamped_alpha * T(1.7f) / (T(1.0f) + unclamped_alpha);
     const T refracted = mirrored * Min(T(0.25f) * Max(T(2.0f) * ior - T(2.0f), T(1.0f)), T(1.0f));
     return Select(thickness > T(0.0f), refracted, mirrored);
@@ -79,7 +79,7 @@ struct TransmissionLobe {
 
 // The vector from where the view enters a medium to where it leaves it. `ior`: 1 or more.
 template <class T>
-HWY_INLINE Vec3<T> RefractedPath(const SurfaceView<T>& at, T ior, T thickness) {
+FACET_INLINE Vec3<T> RefractedPath(const SurfaceView<T>& at, T ior, T thickness) {
   const T eta = T(1.0f) / Max(ior, T(1.0f));
   const T cosine = Sqrt(Max(T(1.0f) - eta * eta * (T(1.0f) - at.n_dot_v * at.n_dot_v), T(0.0f)));
   const Vec3<T> inward = at.normal * (eta * at.n_dot_v - cosine) - at.view * eta;

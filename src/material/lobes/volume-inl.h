@@ -21,7 +21,7 @@ struct VolumeInputs {
   Vec3<T> absorption{};  // per metre
 
   // The share of light that the way through the slab leaves.
-  HWY_INLINE Vec3<T> Passing() const {
+  FACET_INLINE Vec3<T> Passing() const {
     const auto of = [&](T a) HWY_ATTR { return Exp(Max(-(a * thickness), T(-100.0f))); };
     return {of(absorption.x), of(absorption.y), of(absorption.z)};
   }

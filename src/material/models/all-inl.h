@@ -22,7 +22,8 @@ namespace HWY_NAMESPACE {
 // Shades by the material's own model, as long as no user's shader replaces it.
 struct ModelOfMaterial {
   template <class T, class Material, class Lighting>
-  HWY_INLINE Shaded<T> operator()(const Surface<T>& surface, const Material& material, const Lighting& lighting) const {
+  FACET_INLINE Shaded<T> operator()(const Surface<T>& surface, const Material& material,
+                                    const Lighting& lighting) const {
     switch (material.Model()) {
 #define FACET_MODEL_CASE(Name) \
   case ShadingModel::Name: return Name()(surface, material, lighting);
@@ -37,7 +38,8 @@ struct ModelOfMaterial {
 template <class Model, MaterialFeatures kPossible>
 struct ModelWith {
   template <class T, class Material, class Lighting>
-  HWY_INLINE Shaded<T> operator()(const Surface<T>& surface, const Material& material, const Lighting& lighting) const {
+  FACET_INLINE Shaded<T> operator()(const Surface<T>& surface, const Material& material,
+                                    const Lighting& lighting) const {
     return Model::template With<kPossible>(surface, material, lighting);
   }
 };

@@ -35,8 +35,8 @@ struct EnterpriseScattering {
 
   // `inputs`: of the same source, with the coat.
   template <class Source, class Lighting>
-  HWY_INLINE EnterpriseScattering(const Source& from, const MaterialInputs<T>& inputs, const Vec3<T>& towards_eye,
-                                  const Lighting& lighting)
+  FACET_INLINE EnterpriseScattering(const Source& from, const MaterialInputs<T>& inputs, const Vec3<T>& towards_eye,
+                                    const Lighting& lighting)
       : in(inputs),
         has_coat(from.Has(kClearcoat)),
         has_flakes(from.Has(kFlakes)),
@@ -53,10 +53,10 @@ struct EnterpriseScattering {
     }
   }
 
-  HWY_INLINE Vec3<T> Emission() const { return has_coat ? in.emissive * coat.EnergyLeft() : in.emissive; }
+  FACET_INLINE Vec3<T> Emission() const { return has_coat ? in.emissive * coat.EnergyLeft() : in.emissive; }
 
   template <class Lighting>
-  HWY_INLINE Vec3<T> Direct(const Vec3<T>& direction, const Lighting& lighting) const {
+  FACET_INLINE Vec3<T> Direct(const Vec3<T>& direction, const Lighting& lighting) const {
     Vec3<T> value = EvaluateClosure(closure, direction, lighting);
     if (has_flakes) value = value * (T(1.0f) - flakes.Share()) + flakes.Direct(closure.at, direction);
     if (has_coat) {
@@ -67,7 +67,7 @@ struct EnterpriseScattering {
   }
 
   template <class Lighting>
-  HWY_INLINE Vec3<T> Environment(const Lighting& lighting) const {
+  FACET_INLINE Vec3<T> Environment(const Lighting& lighting) const {
     Vec3<T> radiance = EvaluateEnvironment(closure, in, lighting);
     if (has_flakes) radiance = radiance * (T(1.0f) - flakes.Share()) + flakes.Environment(closure.at, lighting);
     if (has_coat) {
@@ -78,12 +78,12 @@ struct EnterpriseScattering {
   }
 
   template <class Lighting>
-  HWY_INLINE Vec3<T> FromEnvironment(const Vec3<T>& direction, const Lighting& lighting) const {
+  FACET_INLINE Vec3<T> FromEnvironment(const Vec3<T>& direction, const Lighting& lighting) const {
     return Direct(direction, lighting);
   }
 
   // What is seen through the surface is multiplied by this.
-  HWY_INLINE Vec3<T> Tint() const {
+  FACET_INLINE Vec3<T> Tint() const {
     if (!closure.Has(kTransmission)) return Vec3<T>{};
     Vec3<T> tint = closure.transmission.color;
     if (has_flakes) tint = tint * (T(1.0f) - flakes.Share());
@@ -93,12 +93,12 @@ struct EnterpriseScattering {
 
   // The BTDF times the cosine, for a light behind the surface.
   template <class Lighting>
-  HWY_INLINE Vec3<T> Transmitted(const Vec3<T>& direction, const Lighting& lighting) const {
+  FACET_INLINE Vec3<T> Transmitted(const Vec3<T>& direction, const Lighting& lighting) const {
     return Tint() * closure.transmission.Direct(closure.at, direction, lighting);
   }
 
   template <class Visit>
-  HWY_INLINE void ForEachShape(const Visit& visit) const {
+  FACET_INLINE void ForEachShape(const Visit& visit) const {
     if (closure.Has(kAnisotropy)) {
       visit(closure.anisotropic.tangent, closure.anisotropic.bitangent, normal, closure.anisotropic.alpha_t,
             closure.anisotropic.alpha_b);
@@ -111,17 +111,17 @@ struct EnterpriseScattering {
     }
     if (has_coat) visit(coat.at.normal, coat.microfacets.alpha);
   }
-  HWY_INLINE bool TransmitsDiffusely() const { return closure.Has(kDiffuseTransmission); }
+  FACET_INLINE bool TransmitsDiffusely() const { return closure.Has(kDiffuseTransmission); }
 
  private:
-  static HWY_INLINE MaterialInputs<T> WithoutCoat(MaterialInputs<T> in) {
+  static FACET_INLINE MaterialInputs<T> WithoutCoat(MaterialInputs<T> in) {
     in.lobes = in.lobes & ~MaterialFeatures{kClearcoat};
     return in;
   }
 
   // The lobe of transmission is equally wide in all directions: its roughness is the mean of both, by the areas.
   template <class Lighting>
-  HWY_INLINE void SetMeanRoughnessOfTransmission(const Lighting& lighting) {
+  FACET_INLINE void SetMeanRoughnessOfTransmission(const Lighting& lighting) {
     const Vec3<T> color = closure.transmission.color;
     const T mean = Sqrt(Sqrt(closure.anisotropic.alpha_t * closure.anisotropic.alpha_b));
     closure.transmission = TransmissionLobe<T>(in.transmission, closure.at, in.base_color, in.metallic, mean, lighting);
@@ -131,7 +131,7 @@ struct EnterpriseScattering {
   // Light that the medium deflects, 1 - exp(-tau), comes back as diffuse light of the medium's colour. Of a thin medium
   // one half leaves it on the other side, of a thick one 1 / (3/4 tau), as two streams have it; between them,
   // 1 / (2 + 3/4 tau).
-  HWY_INLINE void AddSubsurface(const Vec3<T>& color) {
+  FACET_INLINE void AddSubsurface(const Vec3<T>& color) {
     const T zero(0.0f), one(1.0f);
     const TransmissionInputs<T>& t = in.transmission;
     const T amount = Clamp(t.factor, zero, one) * (one - Clamp(in.metallic, zero, one));
@@ -152,15 +152,15 @@ struct Enterprise : OwnModel<Enterprise> {
   using Block = EnterpriseParameters;
 
   template <class T, class Source, class Lighting>
-  static HWY_INLINE EnterpriseScattering<T> Make(const Source& from, const Vec4<T>& base, const Vec3<T>& view,
-                                                 const Lighting& lighting) {
+  static FACET_INLINE EnterpriseScattering<T> Make(const Source& from, const Vec4<T>& base, const Vec3<T>& view,
+                                                   const Lighting& lighting) {
     return EnterpriseScattering<T>(from, ReadEnterpriseInputs<T>(from, base), view, lighting);
   }
 
   // For materials with transmission.
   template <class T, class Material, class Lighting>
-  static HWY_INLINE ShadedThrough<T> Through(const Surface<T>& surface, const Material& material,
-                                             const Lighting& lighting) {
+  static FACET_INLINE ShadedThrough<T> Through(const Surface<T>& surface, const Material& material,
+                                               const Lighting& lighting) {
     return material.Read(surface, [&](const auto& source, const Vec4<T>& base) HWY_ATTR {
       const EnterpriseScattering<T> s = Make<T>(source, base, surface.view, lighting);
       Vec3<T> radiance = s.Emission();

@@ -23,15 +23,15 @@ struct FilamentScattering : filament::FilamentSurface<T> {
   Vec3<T> normal{}, view{};
   filament::PostLighting<T> after;
 
-  HWY_INLINE explicit FilamentScattering(const filament::FilamentSurface<T>& surface)
+  FACET_INLINE explicit FilamentScattering(const filament::FilamentSurface<T>& surface)
       : filament::FilamentSurface<T>(surface), normal(surface.at.normal), view(surface.at.view) {}
 
-  HWY_INLINE Vec3<T> Emission() const {
+  FACET_INLINE Vec3<T> Emission() const {
     return this->shading == Shading::Unlit ? this->base_color + this->emission : this->emission;
   }
 
   template <class Lighting>
-  HWY_INLINE Vec3<T> Direct(const Vec3<T>& direction, const Lighting&) const {
+  FACET_INLINE Vec3<T> Direct(const Vec3<T>& direction, const Lighting&) const {
     switch (this->shading) {
       case Shading::Unlit: return {};
       case Shading::Cloth: return filament::DirectCloth(*this, direction);
@@ -43,33 +43,33 @@ struct FilamentScattering : filament::FilamentSurface<T> {
   }
 
   template <class Lighting>
-  HWY_INLINE Vec3<T> Environment(const Lighting& lighting) const {
+  FACET_INLINE Vec3<T> Environment(const Lighting& lighting) const {
     return this->shading == Shading::Unlit ? Vec3<T>{} : filament::FromPrefiltered(*this, lighting);
   }
 
   template <class Lighting>
-  HWY_INLINE Vec3<T> FromEnvironment(const Vec3<T>& direction, const Lighting&) const {
+  FACET_INLINE Vec3<T> FromEnvironment(const Vec3<T>& direction, const Lighting&) const {
     return this->shading == Shading::Unlit ? Vec3<T>{} : filament::FromOneDirection(*this, direction);
   }
 
   // The surface with all its light: blended with the colour that comes after lighting, and in straight alpha.
-  HWY_INLINE Shaded<T> Finish(const Vec3<T>& radiance) const { return filament::Finish<T>(*this, after, radiance); }
+  FACET_INLINE Shaded<T> Finish(const Vec3<T>& radiance) const { return filament::Finish<T>(*this, after, radiance); }
 
   template <class Visit>
-  HWY_INLINE void ForEachShape(const Visit& visit) const {
+  FACET_INLINE void ForEachShape(const Visit& visit) const {
     if (this->shading == Shading::Unlit || this->shading == Shading::Cloth) return;
     visit(normal, this->alpha);
     if (this->has_coat) visit(this->coat_at.normal, this->coat_alpha);
   }
-  HWY_INLINE bool TransmitsDiffusely() const { return this->has_subsurface; }
+  FACET_INLINE bool TransmitsDiffusely() const { return this->has_subsurface; }
 };
 
 struct Filament : OwnModel<Filament> {
   using Block = FilamentParameters;
 
   template <class T, class Source, class Lighting>
-  static HWY_INLINE FilamentScattering<T> Make(const Source& from, const Vec4<T>& base, const Vec3<T>& view,
-                                               const Lighting& lighting) {
+  static FACET_INLINE FilamentScattering<T> Make(const Source& from, const Vec4<T>& base, const Vec3<T>& view,
+                                                 const Lighting& lighting) {
     const Block& p = from.template Parameters<Block>();
     FilamentScattering<T> s(filament::SurfaceReader<T, Source>(from, p).Read(base, view, lighting));
     s.after = filament::ReadPostLighting<T>(from, p);
@@ -78,8 +78,8 @@ struct Filament : OwnModel<Filament> {
 
   // For materials that light passes through, or whose blending is more than alpha.
   template <class T, class Material, class Lighting>
-  static HWY_INLINE ShadedThrough<T> Through(const Surface<T>& surface, const Material& material,
-                                             const Lighting& lighting) {
+  static FACET_INLINE ShadedThrough<T> Through(const Surface<T>& surface, const Material& material,
+                                               const Lighting& lighting) {
     return material.Read(surface, [&](const auto& from, const Vec4<T>& base) HWY_ATTR {
       const FilamentScattering<T> s = Make<T>(from, base, surface.view, lighting);
       ShadedThrough<T> out{};

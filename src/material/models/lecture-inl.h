@@ -32,9 +32,9 @@ struct LectureMicrofacets {
   T exponent{};              // of Blinn and Phong's terms
   T perceptual_roughness{};  // the square root of alpha, for image-based light: 0 for a mirror
 
-  HWY_INLINE LectureMicrofacets() {}
+  FACET_INLINE LectureMicrofacets() {}
 
-  HWY_INLINE LectureMicrofacets(const LectureParameters& p, T stated_roughness) {
+  FACET_INLINE LectureMicrofacets(const LectureParameters& p, T stated_roughness) {
     constexpr float kLeast = kMinPerceptualRoughness * kMinPerceptualRoughness;
     const auto bounded = [](T value) HWY_ATTR { return Clamp(value, T(kLeast), T(1.0f)); };
     roughness = Clamp(stated_roughness, T(0.0f), T(1.0f));
@@ -62,7 +62,7 @@ struct LectureMicrofacets {
   }
 
   // D of the half vector.
-  HWY_INLINE T Distribution(const LectureParameters& p, const Vec3<T>& normal, const Vec3<T>& half) const {
+  FACET_INLINE T Distribution(const LectureParameters& p, const Vec3<T>& normal, const Vec3<T>& half) const {
     const Vec3<T> cross = Cross(normal, half);
     const T n_dot_h = Clamp(Dot(normal, half), T(0.0f), T(1.0f)), sin2 = Dot(cross, cross);
     switch (p.distribution) {
@@ -76,7 +76,7 @@ struct LectureMicrofacets {
   }
 
   // G / (4 n.l n.v). `of_image`: for image-based light.
-  HWY_INLINE T Visibility(const LectureParameters& p, T n_dot_l, T n_dot_v, bool of_image) const {
+  FACET_INLINE T Visibility(const LectureParameters& p, T n_dot_l, T n_dot_v, bool of_image) const {
     if (p.geometry == LectureGeometry::SchlickGgx) {
       const T one_more = roughness + T(1.0f);
       // With k = 0 the quotient would be infinite at the horizon.
@@ -89,7 +89,7 @@ struct LectureMicrofacets {
   }
 
  private:
-  static HWY_INLINE T FromHost(double value) {
+  static FACET_INLINE T FromHost(double value) {
     if constexpr (std::is_same_v<T, double>) {
       return value;
     } else {
@@ -109,10 +109,10 @@ struct LectureScattering {
   T coverage{}, n_dot_v{}, metalness{}, occlusion{};
   LectureMicrofacets<T> microfacets;
 
-  HWY_INLINE LectureScattering() {}  // see MaterialInputs
+  FACET_INLINE LectureScattering() {}  // see MaterialInputs
 
   // F, where the light and the view have the cosine v.h with the microfacet.
-  HWY_INLINE Vec3<T> Fresnel(T v_dot_h) const {
+  FACET_INLINE Vec3<T> Fresnel(T v_dot_h) const {
     const LectureParameters& p = *choice;
     if (p.specular == LectureSpecular::None) return {};
     if (p.fresnel == LectureFresnel::Schlick) return FresnelSchlick(f0, v_dot_h);
@@ -124,7 +124,7 @@ struct LectureScattering {
   }
 
   // The specular term without F.
-  HWY_INLINE T Specular(const Incidence<T>& from, bool of_image) const {
+  FACET_INLINE T Specular(const Incidence<T>& from, bool of_image) const {
     const LectureParameters& p = *choice;
     if (p.specular == LectureSpecular::None) return T(0.0f);
     if (p.specular == LectureSpecular::CookTorrance) {
@@ -138,29 +138,29 @@ struct LectureScattering {
   }
 
   // kD times the diffuse colour.
-  HWY_INLINE Vec3<T> Diffuse(const Vec3<T>& k_s) const {
+  FACET_INLINE Vec3<T> Diffuse(const Vec3<T>& k_s) const {
     const T zero(0.0f), one(1.0f), dielectric = one - metalness;  // F may exceed 1 by its rounding
     return {diffuse_color.x * (Max(one - k_s.x, zero) * dielectric),
             diffuse_color.y * (Max(one - k_s.y, zero) * dielectric),
             diffuse_color.z * (Max(one - k_s.z, zero) * dielectric)};
   }
 
-  HWY_INLINE Vec3<T> Reflected(const Vec3<T>& direction, bool of_image) const {
+  FACET_INLINE Vec3<T> Reflected(const Vec3<T>& direction, bool of_image) const {
     const Incidence<T> from = IncidenceFrom(SurfaceView<T>{normal, view, n_dot_v}, direction);
     const Vec3<T> fresnel = Fresnel(from.v_dot_h);
     const Vec3<T> brdf = Diffuse(fresnel) * T(kInversePi) + fresnel * Specular(from, of_image);
     return Select<T>(from.n_dot_l > T(0.0f), brdf * from.n_dot_l, Vec3<T>{});
   }
 
-  HWY_INLINE Vec3<T> Emission() const { return emission; }
+  FACET_INLINE Vec3<T> Emission() const { return emission; }
 
   template <class Lighting>
-  HWY_INLINE Vec3<T> Direct(const Vec3<T>& direction, const Lighting&) const {
+  FACET_INLINE Vec3<T> Direct(const Vec3<T>& direction, const Lighting&) const {
     return Reflected(direction, /*of_image=*/false);
   }
 
   template <class Lighting>
-  HWY_INLINE Vec3<T> Environment(const Lighting& lighting) const {
+  FACET_INLINE Vec3<T> Environment(const Lighting& lighting) const {
     const LectureParameters& p = *choice;
     if (p.ambient == LectureAmbient::Constant) return {};
     Vec3<T> k_s{}, radiance{};
@@ -181,24 +181,24 @@ struct LectureScattering {
   }
 
   template <class Lighting>
-  HWY_INLINE Vec3<T> FromEnvironment(const Vec3<T>& direction, const Lighting&) const {
+  FACET_INLINE Vec3<T> FromEnvironment(const Vec3<T>& direction, const Lighting&) const {
     if (choice->ambient == LectureAmbient::Constant) return {};
     return Reflected(direction, /*of_image=*/true) * occlusion;
   }
 
   template <class Visit>
-  HWY_INLINE void ForEachShape(const Visit& visit) const {
+  FACET_INLINE void ForEachShape(const Visit& visit) const {
     visit(normal, microfacets.alpha);
   }
-  HWY_INLINE bool TransmitsDiffusely() const { return false; }
+  FACET_INLINE bool TransmitsDiffusely() const { return false; }
 };
 
 struct Lecture : OwnModel<Lecture> {
   using Block = LectureParameters;
 
   template <class T, class Source, class Lighting>
-  static HWY_INLINE LectureScattering<T> Make(const Source& from, const Vec4<T>& base, const Vec3<T>& view,
-                                              const Lighting&) {
+  static FACET_INLINE LectureScattering<T> Make(const Source& from, const Vec4<T>& base, const Vec3<T>& view,
+                                                const Lighting&) {
     const Block& p = from.template Parameters<Block>();
     const auto share = [](T value) HWY_ATTR { return Clamp(value, T(0.0f), T(1.0f)); };
     const auto color = [&](const Vec3<T>& c) HWY_ATTR { return Vec3<T>{share(c.x), share(c.y), share(c.z)}; };
@@ -244,7 +244,7 @@ struct Lecture : OwnModel<Lecture> {
  private:
   // The index of refraction of a dielectric in air with this F0. An F0 of 1 has an infinite one.
   template <class T>
-  static HWY_INLINE T IorOf(T f0) {
+  static FACET_INLINE T IorOf(T f0) {
     const T root = Sqrt(Min(f0, T(0.999f)));
     return (T(1.0f) + root) / (T(1.0f) - root);
   }

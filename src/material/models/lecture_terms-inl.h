@@ -20,7 +20,7 @@ namespace HWY_NAMESPACE {
 
 // ln(n.h) to the relative precision of sin2_n_h: half of ln(1 - sin^2) by its series where n and h are close.
 template <class T>
-HWY_INLINE T LogOfCosine(T n_dot_h, T sin2_n_h) {
+FACET_INLINE T LogOfCosine(T n_dot_h, T sin2_n_h) {
   constexpr float kSeries[] = {1.0f, 1.0f / 2, 1.0f / 3, 1.0f / 4, 1.0f / 5, 1.0f / 6, 1.0f / 7, 1.0f / 8};
   const T close = sin2_n_h * Polynomial(sin2_n_h, kSeries) * T(-0.5f);
   return Select(sin2_n_h < T(1.0f / 16.0f), close, Log(Max(n_dot_h, T(1e-30f))));
@@ -28,20 +28,20 @@ HWY_INLINE T LogOfCosine(T n_dot_h, T sin2_n_h) {
 
 // (n.h)^exponent.
 template <class T>
-HWY_INLINE T CosineLobe(T n_dot_h, T sin2_n_h, T exponent) {
+FACET_INLINE T CosineLobe(T n_dot_h, T sin2_n_h, T exponent) {
   return Exp(exponent * LogOfCosine(n_dot_h, sin2_n_h));
 }
 
 // Blinn, 1977, Models of Light Reflection for Computer Synthesized Pictures, normalised: (p + 2) / (2 pi) (n.h)^p.
 template <class T>
-HWY_INLINE T DistributionBlinnPhong(T n_dot_h, T sin2_n_h, T exponent) {
+FACET_INLINE T DistributionBlinnPhong(T n_dot_h, T sin2_n_h, T exponent) {
   return (exponent + T(2.0f)) * T(0.5f * kInversePi) * CosineLobe(n_dot_h, sin2_n_h, exponent);
 }
 
 // Beckmann and Spizzichino, 1963, The Scattering of Electromagnetic Waves from Rough Surfaces; in the form of Walter et
 // al., 2007, equation 25: exp(-tan^2 / alpha^2) / (pi alpha^2 cos^4). Below a cosine of 1e-4 it is 0 for every alpha.
 template <class T>
-HWY_INLINE T DistributionBeckmann(T n_dot_h, T sin2_n_h, T alpha) {
+FACET_INLINE T DistributionBeckmann(T n_dot_h, T sin2_n_h, T alpha) {
   const T cosine = Max(n_dot_h, T(1e-4f)), cos2 = cosine * cosine, a2 = alpha * alpha;
   return Exp(-sin2_n_h / (cos2 * a2)) * T(kInversePi) / (a2 * cos2 * cos2);
 }
@@ -49,7 +49,7 @@ HWY_INLINE T DistributionBeckmann(T n_dot_h, T sin2_n_h, T alpha) {
 // ABC: peak / (1 + alpha1 (1 - n.h))^alpha2, where peak is 1 / (2 pi AbcIntegral(alpha1, alpha2)) of
 // material/models/lecture_abc.h.
 template <class T>
-HWY_INLINE T DistributionAbc(T n_dot_h, T sin2_n_h, T alpha1, T alpha2, T peak) {
+FACET_INLINE T DistributionAbc(T n_dot_h, T sin2_n_h, T alpha1, T alpha2, T peak) {
   const T below = sin2_n_h / (T(1.0f) + n_dot_h);  // 1 - n.h
   return peak * Exp2(-alpha2 * Log2(T(1.0f) + alpha1 * below));
 }
@@ -59,7 +59,7 @@ HWY_INLINE T DistributionAbc(T n_dot_h, T sin2_n_h, T alpha1, T alpha2, T peak) 
 // G1(n.l) G1(n.v) with G1(x) = x / (x (1 - k) + k). Schlick, 1994, An Inexpensive BRDF Model for Physically-based
 // Rendering; k by Karis, 2013, Real Shading in Unreal Engine 4. Finite while k > 0.
 template <class T>
-HWY_INLINE T VisibilitySchlick(T n_dot_l, T n_dot_v, T k) {
+FACET_INLINE T VisibilitySchlick(T n_dot_l, T n_dot_v, T k) {
   const T rest = T(1.0f) - k;
   return T(0.25f) / ((n_dot_l * rest + k) * (n_dot_v * rest + k));
 }
@@ -69,7 +69,7 @@ HWY_INLINE T VisibilitySchlick(T n_dot_l, T n_dot_v, T k) {
 // al., 2007): (1 - 1.259 a + 0.396 a^2) / (3.535 a + 2.181 a^2) for a = n.x / (alpha sin) below 1.6, else 0. Both
 // cosines are multiplied into it, so that it is finite while n.v > 0 and n.l >= 0.
 template <class T>
-HWY_INLINE T CosineTimesLambdaBeckmann(T cosine, T alpha) {
+FACET_INLINE T CosineTimesLambdaBeckmann(T cosine, T alpha) {
   const T spread = alpha * Sqrt(Max(T(1.0f) - cosine * cosine, T(0.0f)));  // cosine / a
   const T a = cosine / Max(spread, T(1e-20f));
   const T near = Min(a, T(1.6f));
@@ -77,7 +77,7 @@ HWY_INLINE T CosineTimesLambdaBeckmann(T cosine, T alpha) {
   return Select(a < T(1.6f), fit, T(0.0f));
 }
 template <class T>
-HWY_INLINE T VisibilitySmithBeckmann(T n_dot_l, T n_dot_v, T alpha) {
+FACET_INLINE T VisibilitySmithBeckmann(T n_dot_l, T n_dot_v, T alpha) {
   return T(0.25f) / (n_dot_l * n_dot_v + n_dot_v * CosineTimesLambdaBeckmann(n_dot_l, alpha) +
                      n_dot_l * CosineTimesLambdaBeckmann(n_dot_v, alpha));
 }
@@ -87,7 +87,7 @@ HWY_INLINE T VisibilitySmithBeckmann(T n_dot_l, T n_dot_v, T alpha) {
 // A dielectric in air, of index of refraction 1 or more. Cook and Torrance, 1982, A Reflectance Model for Computer
 // Graphics, with c = v.h and g^2 = ior^2 - 1 + c^2. 1 at c = 0 for every index above 1.
 template <class T>
-HWY_INLINE T FresnelDielectric(T ior, T v_dot_h) {
+FACET_INLINE T FresnelDielectric(T ior, T v_dot_h) {
   const T c = v_dot_h;
   const T excess = (ior - T(1.0f)) * (ior + T(1.0f));
   const T g = Sqrt(excess + c * c);
@@ -102,7 +102,7 @@ HWY_INLINE T FresnelDielectric(T ior, T v_dot_h) {
 // A conductor in air, of index of refraction eta + i k, both 0 or more, not both 0. Born and Wolf, 1999, Principles of
 // Optics, section 14.2, solved for real numbers.
 template <class T>
-HWY_INLINE T FresnelConductor(T eta, T k, T v_dot_h) {
+FACET_INLINE T FresnelConductor(T eta, T k, T v_dot_h) {
   const T c2 = v_dot_h * v_dot_h, s2 = Max(T(1.0f) - c2, T(0.0f));
   const T eta2 = eta * eta, k2 = k * k;
   // p^2 - q^2 and 2 p q are the parts of (eta + i k)^2 - sin^2.
@@ -122,7 +122,7 @@ HWY_INLINE T FresnelConductor(T eta, T k, T v_dot_h) {
 // F with roughness, as lectures have it for image-based light: F0 + (max(1 - roughness, F0) - F0) (1 - n.v)^5
 // (S. Lagarde, 2011, Adopting a Physically Based Shading Model).
 template <class T>
-HWY_INLINE T FresnelSchlickRoughness(T f0, T roughness, T n_dot_v) {
+FACET_INLINE T FresnelSchlickRoughness(T f0, T roughness, T n_dot_v) {
   return f0 + (Max(T(1.0f) - roughness, f0) - f0) * SchlickWeight(n_dot_v);
 }
 

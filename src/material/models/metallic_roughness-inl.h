@@ -18,22 +18,23 @@ namespace HWY_NAMESPACE {
 template <MaterialFeatures kCoreOf>
 struct LitModel {
   template <class T, class Material, class Lighting>
-  HWY_INLINE Shaded<T> operator()(const Surface<T>& surface, const Material& material, const Lighting& lighting) const {
+  FACET_INLINE Shaded<T> operator()(const Surface<T>& surface, const Material& material,
+                                    const Lighting& lighting) const {
     return With<kAllLobes>(surface, material, lighting);
   }
 
   // For materials whose lobes are all in `kPossible`.
   static constexpr MaterialFeatures kCore = kCoreOf;
   template <MaterialFeatures kPossible, class T, class Material, class Lighting>
-  static HWY_INLINE Shaded<T> With(const Surface<T>& surface, const Material& material, const Lighting& lighting) {
+  static FACET_INLINE Shaded<T> With(const Surface<T>& surface, const Material& material, const Lighting& lighting) {
     const MaterialInputs<T> inputs = material.template Inputs<kPossible>(surface);
     return {ShadeClosure<T, kPossible>(inputs, surface.view, surface.position, lighting), inputs.alpha_coverage};
   }
 
   // For materials with transmission.
   template <class T, class Material, class Lighting>
-  static HWY_INLINE ShadedThrough<T> Through(const Surface<T>& surface, const Material& material,
-                                             const Lighting& lighting) {
+  static FACET_INLINE ShadedThrough<T> Through(const Surface<T>& surface, const Material& material,
+                                               const Lighting& lighting) {
     return ShadeThrough(material.template Inputs<kAllLobes>(surface), surface, lighting);
   }
 };

@@ -39,7 +39,7 @@ HWY_NOINLINE Vec4<T> ReadTexel(const Source& from, Slot slot) {
 
 // A number: its value times the texture's channel.
 template <class T, class Source>
-HWY_INLINE T ReadParameter(const Source& from, const Textured<float>& parameter, Slot slot) {
+FACET_INLINE T ReadParameter(const Source& from, const Textured<float>& parameter, Slot slot) {
   const T value(parameter.value);
   if (!from.Has(BitOf(slot))) return value;
   switch (parameter.channel) {
@@ -52,19 +52,19 @@ HWY_INLINE T ReadParameter(const Source& from, const Textured<float>& parameter,
 
 // A colour: its value times the texture.
 template <class T, class Source>
-HWY_INLINE Vec3<T> ReadParameter(const Source& from, const Textured<glm::vec3>& parameter, Slot slot) {
+FACET_INLINE Vec3<T> ReadParameter(const Source& from, const Textured<glm::vec3>& parameter, Slot slot) {
   const Vec3<T> value{T(parameter.value.x), T(parameter.value.y), T(parameter.value.z)};
   return from.Has(BitOf(slot)) ? value * Xyz(ReadTexel<kRgb, T>(from, slot)) : value;
 }
 template <class T, class Source>
-HWY_INLINE Vec4<T> ReadParameter(const Source& from, const Textured<glm::vec4>& parameter, Slot slot) {
+FACET_INLINE Vec4<T> ReadParameter(const Source& from, const Textured<glm::vec4>& parameter, Slot slot) {
   const Vec4<T> value{T(parameter.value.x), T(parameter.value.y), T(parameter.value.z), T(parameter.value.w)};
   return from.Has(BitOf(slot)) ? value * ReadTexel<kRgba, T>(from, slot) : value;
 }
 
 // A direction given in tangent space, in world axes: unit.
 template <class T, class Source>
-HWY_INLINE Vec3<T> ReadParameter(const Source& from, const TangentSpaceNormal& parameter, Slot slot) {
+FACET_INLINE Vec3<T> ReadParameter(const Source& from, const TangentSpaceNormal& parameter, Slot slot) {
   if (from.Has(BitOf(slot))) return MappedNormal<T>(from, slot, parameter.scale);
   const glm::vec3& value = parameter.value;
   if (value == glm::vec3(0.0f, 0.0f, 1.0f) || !from.Has(kTangents)) return from.Normal();
@@ -76,7 +76,7 @@ HWY_INLINE Vec3<T> ReadParameter(const Source& from, const TangentSpaceNormal& p
 
 // The surface with all its light.
 template <class Scattering, class T>
-HWY_INLINE Shaded<T> FinishOwn(const Scattering& scattering, const Vec3<T>& radiance) {
+FACET_INLINE Shaded<T> FinishOwn(const Scattering& scattering, const Vec3<T>& radiance) {
   if constexpr (requires { scattering.Finish(radiance); }) {
     return scattering.Finish(radiance);
   } else {
@@ -87,13 +87,14 @@ HWY_INLINE Shaded<T> FinishOwn(const Scattering& scattering, const Vec3<T>& radi
 template <class Model>
 struct OwnModel {
   template <class T, class Material, class Lighting>
-  HWY_INLINE Shaded<T> operator()(const Surface<T>& surface, const Material& material, const Lighting& lighting) const {
+  FACET_INLINE Shaded<T> operator()(const Surface<T>& surface, const Material& material,
+                                    const Lighting& lighting) const {
     return With<kCore>(surface, material, lighting);
   }
 
   static constexpr MaterialFeatures kCore = 0;
   template <MaterialFeatures, class T, class Material, class Lighting>
-  static HWY_INLINE Shaded<T> With(const Surface<T>& surface, const Material& material, const Lighting& lighting) {
+  static FACET_INLINE Shaded<T> With(const Surface<T>& surface, const Material& material, const Lighting& lighting) {
     return material.Read(surface, [&](const auto& source, const Vec4<T>& base) HWY_ATTR {
       const auto scattering = Model::template Make<T>(source, base, surface.view, lighting);
       return FinishOwn(scattering, AllLight(scattering, surface.position, lighting));
@@ -102,7 +103,8 @@ struct OwnModel {
 
   // Of the emission, the environment and the punctual lights.
   template <class Scattering, class T, class Lighting>
-  static HWY_INLINE Vec3<T> AllLight(const Scattering& scattering, const Vec3<T>& position, const Lighting& lighting) {
+  static FACET_INLINE Vec3<T> AllLight(const Scattering& scattering, const Vec3<T>& position,
+                                       const Lighting& lighting) {
     Vec3<T> radiance = scattering.Emission();
     if (lighting.HasEnvironment()) radiance += scattering.Environment(lighting);
     const int light_count = lighting.LightCount();

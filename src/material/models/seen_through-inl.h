@@ -27,7 +27,7 @@ struct ShadedThrough {
 
 // Where and how sharply things are seen through the surface. `in`: of the closure.
 template <class T>
-HWY_INLINE void SetPaths(const Closure<T>& closure, const MaterialInputs<T>& in, ShadedThrough<T>& out) {
+FACET_INLINE void SetPaths(const Closure<T>& closure, const MaterialInputs<T>& in, ShadedThrough<T>& out) {
   const T thickness = in.volume.thickness;
   const Vec3<T>& ior = in.transmission.ior;
   out.spread = closure.transmission.Spread(thickness, ior.y);
@@ -40,8 +40,8 @@ HWY_INLINE void SetPaths(const Closure<T>& closure, const MaterialInputs<T>& in,
 }
 
 template <class T, class Lighting>
-HWY_INLINE ShadedThrough<T> ShadeThrough(const MaterialInputs<T>& in, const Surface<T>& surface,
-                                         const Lighting& lighting) {
+FACET_INLINE ShadedThrough<T> ShadeThrough(const MaterialInputs<T>& in, const Surface<T>& surface,
+                                           const Lighting& lighting) {
   const Closure<T> closure(in, surface.view, lighting);
   ShadedThrough<T> out{};
   out.own = {ShadeClosure(closure, in, surface.position, lighting), in.alpha_coverage};

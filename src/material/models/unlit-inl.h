@@ -16,13 +16,14 @@ namespace HWY_NAMESPACE {
 
 struct Unlit {
   template <class T, class Material, class Lighting>
-  HWY_INLINE Shaded<T> operator()(const Surface<T>& surface, const Material& material, const Lighting& lighting) const {
+  FACET_INLINE Shaded<T> operator()(const Surface<T>& surface, const Material& material,
+                                    const Lighting& lighting) const {
     return With<kCore>(surface, material, lighting);
   }
 
   static constexpr MaterialFeatures kCore = 0;
   template <MaterialFeatures, class T, class Material, class Lighting>
-  static HWY_INLINE Shaded<T> With(const Surface<T>& surface, const Material& material, const Lighting&) {
+  static FACET_INLINE Shaded<T> With(const Surface<T>& surface, const Material& material, const Lighting&) {
     const Vec4<T> color = material.BaseColor(surface);
     return {material.Emits() ? Xyz(color) + material.Emissive(surface) : Xyz(color), color.w};
   }

@@ -43,13 +43,13 @@ struct FlakeInputs {
 
 // --- Random numbers of a cell ----------------------------------------------------------------------------------------
 
-HWY_INLINE std::int32_t WrappingMultiply(std::int32_t a, std::uint32_t b) {
+FACET_INLINE std::int32_t WrappingMultiply(std::int32_t a, std::uint32_t b) {
   return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) * b);
 }
-HWY_INLINE Int WrappingMultiply(Int a, std::uint32_t b) { return a * Int(static_cast<std::int32_t>(b)); }
+FACET_INLINE Int WrappingMultiply(Int a, std::uint32_t b) { return a * Int(static_cast<std::int32_t>(b)); }
 
 template <class I>
-HWY_INLINE I HashBits(I x) {
+FACET_INLINE I HashBits(I x) {
   x = x ^ ShiftRightLogical<16>(x);
   x = WrappingMultiply(x, 0x7feb352du);
   x = x ^ ShiftRightLogical<15>(x);
@@ -59,7 +59,7 @@ HWY_INLINE I HashBits(I x) {
 
 // In [0, 1), with 24 bits.
 template <class T>
-HWY_INLINE T UnitOfBits(IntOf<T> bits) {
+FACET_INLINE T UnitOfBits(IntOf<T> bits) {
   return FromInt<T>(ShiftRightLogical<8>(bits)) * T(0x1p-24f);
 }
 
@@ -74,7 +74,7 @@ struct FlakeCell {
 // The cell at a place, in units of the grid. Only the nine squares around are searched: a nearer point beyond them is
 // rare, and missed in the same way at every visit.
 template <class T>
-HWY_INLINE FlakeCell<T> FlakeAt(const Vec2<T>& place) {
+FACET_INLINE FlakeCell<T> FlakeAt(const Vec2<T>& place) {
   const T most(1e9f);
   const T fx = Floor(Clamp(place.x, -most, most)), fy = Floor(Clamp(place.y, -most, most));
   const T x = Clamp(place.x - fx, T(0.0f), T(1.0f)), y = Clamp(place.y - fy, T(0.0f), T(1.0f));
@@ -105,9 +105,9 @@ struct FlakeWidths {
   T cone{};              // tangent of half the angle of the cone that a flake reflects into
   T one_minus_cosine{};  // of that angle
 
-  HWY_INLINE FlakeWidths() {}
+  FACET_INLINE FlakeWidths() {}
 
-  HWY_INLINE explicit FlakeWidths(T roughness) {
+  FACET_INLINE explicit FlakeWidths(T roughness) {
     // The least width: a highlight of 0.2 degrees, as for other surfaces. The cone's angle is at most 7 degrees.
     constexpr float kLeast = 0.002f, kLargestCone2 = 0.00374082f;
     whole = Clamp(roughness, T(kLeast), T(1.0f));
@@ -128,9 +128,9 @@ struct FlakeLayer {
   T filtered{};          // 0: single flakes are seen, 1: their mean
   Vec3<T> flake_normal;  // of the cell at the point, unit
 
-  HWY_INLINE FlakeLayer() {}  // for a layer that a material does not have
+  FACET_INLINE FlakeLayer() {}  // for a layer that a material does not have
 
-  HWY_INLINE FlakeLayer(const FlakeInputs<T>& in, const SurfaceView<T>& at) : widths(in.roughness) {
+  FACET_INLINE FlakeLayer(const FlakeInputs<T>& in, const SurfaceView<T>& at) : widths(in.roughness) {
     const T zero(0.0f), one(1.0f);
     color = in.color;
     flip_flop_color = in.flip_flop_color;
@@ -156,17 +156,17 @@ struct FlakeLayer {
   }
 
   // The share of the surface that is seen as flakes, which hide what is below.
-  HWY_INLINE T Share() const { return Mix(is_flake, coverage, filtered); }
+  FACET_INLINE T Share() const { return Mix(is_flake, coverage, filtered); }
 
   // The BSDF times the cosine.
-  HWY_INLINE Vec3<T> Direct(const SurfaceView<T>& at, const Vec3<T>& light) const {
+  FACET_INLINE Vec3<T> Direct(const SurfaceView<T>& at, const Vec3<T>& light) const {
     const Incidence<T> from = IncidenceFrom(at, light);
     const T value = Mix(is_flake * OfFlake(at, light), coverage * OfMany(at, from), filtered);
     return Select<T>(Dot(at.normal, light) > T(0.0f), Color(from.v_dot_h) * value, Vec3<T>{});
   }
 
   template <class Lighting>
-  HWY_INLINE Vec3<T> Environment(const SurfaceView<T>& at, const Lighting& lighting) const {
+  FACET_INLINE Vec3<T> Environment(const SurfaceView<T>& at, const Lighting& lighting) const {
     Vec3<T> radiance{};
     const T one(1.0f), seen = is_flake * (one - filtered), mean = coverage * filtered;
     if (Any(seen > T(0.0f))) {
@@ -187,7 +187,7 @@ struct FlakeLayer {
   }
 
   // The share of light that the mean of many white flakes reflects upwards.
-  HWY_INLINE T MeanAlbedo(T n_dot_v) const {
+  FACET_INLINE T MeanAlbedo(T n_dot_v) const {
     const T a2 = widths.whole * widths.whole, one(1.0f), sum = one + a2, c2 = n_dot_v * n_dot_v;
     const T tangent2 = Max(one - c2, T(0.0f)) / c2;
     return T(0.5f) + T(0.5f) * (one - a2) / Sqrt(sum * sum + T(4.0f) * a2 * tangent2);
@@ -195,14 +195,14 @@ struct FlakeLayer {
 
  private:
   // `cosine`: of the view with the facet that reflects.
-  HWY_INLINE Vec3<T> Color(T cosine) const {
+  FACET_INLINE Vec3<T> Color(T cosine) const {
     const T x = Clamp(cosine, T(1e-6f), T(1.0f));
     const T power = Exp2(Max(Log2(x) / Max(flip_flop * flip_flop, T(1e-4f)), T(-120.0f)));
     return Mix(color, flip_flop_color, Select(flip_flop > T(0.0f), power, T(0.0f)));
   }
 
   // One flake: even within its cone. The edge is a ramp over a tenth of the solid angle.
-  HWY_INLINE T OfFlake(const SurfaceView<T>& at, const Vec3<T>& light) const {
+  FACET_INLINE T OfFlake(const SurfaceView<T>& at, const Vec3<T>& light) const {
     const T facing = Dot(at.view, flake_normal);
     const Vec3<T> off = light - (flake_normal * (T(2.0f) * facing) - at.view);
     const T outward = Dot(off, off) * T(0.5f) / widths.one_minus_cosine;  // 1 at the edge
@@ -211,7 +211,7 @@ struct FlakeLayer {
   }
 
   // The mean of many.
-  HWY_INLINE T OfMany(const SurfaceView<T>& at, const Incidence<T>& from) const {
+  FACET_INLINE T OfMany(const SurfaceView<T>& at, const Incidence<T>& from) const {
     const T n_dot_h = Max(Dot(at.normal, from.half), T(0.0f));
     return DistributionGgx(at.normal, from.half, widths.whole) * n_dot_h * T(0.25f) / Max(from.v_dot_h, T(kMinNDotV));
   }

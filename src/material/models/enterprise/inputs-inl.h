@@ -16,14 +16,14 @@ namespace facet {
 namespace HWY_NAMESPACE {
 
 template <class T>
-HWY_INLINE Vec3<T> ToVec3(const glm::vec3& v) {
+FACET_INLINE Vec3<T> ToVec3(const glm::vec3& v) {
   return {T(v.x), T(v.y), T(v.z)};
 }
 
 // Radiance: the colour, divided by its luminance if that is asked for, times value / pi. The plan has turned lumens
 // into lumens per square metre.
 template <class T, class Source>
-HWY_INLINE Vec3<T> ReadEnterpriseEmission(const Source& from, const EnterpriseParameters& p) {
+FACET_INLINE Vec3<T> ReadEnterpriseEmission(const Source& from, const EnterpriseParameters& p) {
   using P = EnterpriseParameters;
   const Vec3<T> color = ReadParameter<T>(from, p.emission_color, SlotOf(&P::emission_color));
   const T value = T(p.emission_value) * T(kInversePi);
@@ -40,7 +40,7 @@ HWY_INLINE Vec3<T> ReadEnterpriseEmission(const Source& from, const EnterprisePa
 // is counter-clockwise about the normal, as the specification's text and its chart have it; its formula has the other
 // sign.
 template <class T, class Source>
-HWY_INLINE void ReadEnterpriseAnisotropy(const Source& from, const EnterpriseParameters& p, MaterialInputs<T>& in) {
+FACET_INLINE void ReadEnterpriseAnisotropy(const Source& from, const EnterpriseParameters& p, MaterialInputs<T>& in) {
   using P = EnterpriseParameters;
   const T zero(0.0f), one(1.0f);
   const T amount = Clamp(ReadParameter<T>(from, p.anisotropy, SlotOf(&P::anisotropy)), zero, one);
@@ -56,7 +56,7 @@ HWY_INLINE void ReadEnterpriseAnisotropy(const Source& from, const EnterprisePar
 }
 
 template <class T, class Source>
-HWY_INLINE FlakeInputs<T> ReadFlakes(const Source& from, const EnterpriseParameters& p, const Vec3<T>& normal) {
+FACET_INLINE FlakeInputs<T> ReadFlakes(const Source& from, const EnterpriseParameters& p, const Vec3<T>& normal) {
   using P = EnterpriseParameters;
   FlakeInputs<T> in{};
   in.at = from.FirstUv();
@@ -74,7 +74,7 @@ HWY_INLINE FlakeInputs<T> ReadFlakes(const Source& from, const EnterpriseParamet
 
 // How light passes into the surface and through it.
 template <class T, class Source>
-HWY_INLINE void ReadEnterprisePassing(const Source& from, const EnterpriseParameters& p, MaterialInputs<T>& in) {
+FACET_INLINE void ReadEnterprisePassing(const Source& from, const EnterpriseParameters& p, MaterialInputs<T>& in) {
   using P = EnterpriseParameters;
   const MaterialFactors& f = from.Factors();
   if (from.Has(kVolume)) {
@@ -95,7 +95,7 @@ HWY_INLINE void ReadEnterprisePassing(const Source& from, const EnterpriseParame
 
 // `base`: as BaseColor() of shade/material_view-inl.h has it.
 template <class T, class Source>
-HWY_INLINE MaterialInputs<T> ReadEnterpriseInputs(const Source& from, const Vec4<T>& base) {
+FACET_INLINE MaterialInputs<T> ReadEnterpriseInputs(const Source& from, const Vec4<T>& base) {
   using P = EnterpriseParameters;
   const P& p = from.template Parameters<P>();
   MaterialInputs<T> in;

@@ -28,7 +28,7 @@ struct PostLighting {
 };
 
 template <class T, class Source>
-HWY_INLINE PostLighting<T> ReadPostLighting(const Source& from, const FilamentParameters& p) {
+FACET_INLINE PostLighting<T> ReadPostLighting(const Source& from, const FilamentParameters& p) {
   using Block = FilamentParameters;
   PostLighting<T> after;
   // Of the other ways to blend, black and transparent changes nothing.
@@ -43,8 +43,8 @@ HWY_INLINE PostLighting<T> ReadPostLighting(const Source& from, const FilamentPa
 }
 
 template <class T>
-HWY_INLINE Vec4<T> BlendPostLighting(FilamentParameters::PostLightingBlending how, const Vec4<T>& lit,
-                                     const PostLighting<T>& after) {
+FACET_INLINE Vec4<T> BlendPostLighting(FilamentParameters::PostLightingBlending how, const Vec4<T>& lit,
+                                       const PostLighting<T>& after) {
   using Way = FilamentParameters::PostLightingBlending;
   const T one(1.0f);
   const Vec4<T>& c = after.color;
@@ -61,7 +61,7 @@ HWY_INLINE Vec4<T> BlendPostLighting(FilamentParameters::PostLightingBlending ho
 
 // The surface in straight alpha. `radiance`: premultiplied where blending says that reflections are not dimmed.
 template <class T>
-HWY_INLINE Shaded<T> Finish(const FilamentSurface<T>& s, const PostLighting<T>& after, const Vec3<T>& radiance) {
+FACET_INLINE Shaded<T> Finish(const FilamentSurface<T>& s, const PostLighting<T>& after, const Vec3<T>& radiance) {
   const T one(1.0f);
   const bool covers = s.blending == Blending::Fade || s.blending == Blending::Transparent;
   if (!after.is_stated && s.blending != Blending::Transparent) return {radiance, s.coverage};
@@ -75,7 +75,7 @@ HWY_INLINE Shaded<T> Finish(const FilamentSurface<T>& s, const PostLighting<T>& 
 
 // For add, multiply and screen: the surface's own light, and the factor of what is behind it.
 template <class T>
-HWY_INLINE void BlendWithBehind(const FilamentSurface<T>& s, Shaded<T>& own, Vec3<T>& tint) {
+FACET_INLINE void BlendWithBehind(const FilamentSurface<T>& s, Shaded<T>& own, Vec3<T>& tint) {
   const T one(1.0f);
   tint = Grey(one);
   own.alpha = one;

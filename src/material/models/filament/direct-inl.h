@@ -17,7 +17,7 @@ namespace filament {
 
 // Single scattering of the microfacets with their Fresnel term.
 template <class T>
-HWY_INLINE Vec3<T> DirectSpecular(const FilamentSurface<T>& s, const Vec3<T>& light, const Incidence<T>& from) {
+FACET_INLINE Vec3<T> DirectSpecular(const FilamentSurface<T>& s, const Vec3<T>& light, const Incidence<T>& from) {
   const T single = s.is_anisotropic ? s.anisotropy.Single(s.at, light, from)
                                     : DistributionGgx(s.at.normal, from.half, s.alpha) *
                                           VisibilitySmith(from.n_dot_l, s.at.n_dot_v, s.alpha);
@@ -28,7 +28,7 @@ HWY_INLINE Vec3<T> DirectSpecular(const FilamentSurface<T>& s, const Vec3<T>& li
 
 // Of sheen or cloth, of colour 1.
 template <class T>
-HWY_INLINE T DirectFibres(const FilamentSurface<T>& s, const Incidence<T>& from) {
+FACET_INLINE T DirectFibres(const FilamentSurface<T>& s, const Incidence<T>& from) {
   return Fibres(s.at.normal, from.half, from.n_dot_l, s.at.n_dot_v, s.sheen.inverse_alpha) * s.fibre_scale;
 }
 
@@ -38,7 +38,7 @@ struct CoatReflection {
   T reflected{}, fresnel{};
 };
 template <class T>
-HWY_INLINE CoatReflection<T> DirectCoat(const FilamentSurface<T>& s, const Vec3<T>& light, const Incidence<T>& from) {
+FACET_INLINE CoatReflection<T> DirectCoat(const FilamentSurface<T>& s, const Vec3<T>& light, const Incidence<T>& from) {
   const T fresnel = FresnelSchlick(T(kDielectricF0), from.v_dot_h) * s.coat;
   const T n_dot_l = Clamp(Dot(s.coat_at.normal, light), T(0.0f), T(1.0f));
   const T single = DistributionGgx(s.coat_at.normal, from.half, s.coat_alpha) * VisibilityKelemen(from.v_dot_h);

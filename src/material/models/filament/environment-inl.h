@@ -29,7 +29,7 @@ struct EnvironmentFactors {
 };
 
 template <class T>
-HWY_INLINE EnvironmentFactors<T> FactorsOf(const FilamentSurface<T>& s) {
+FACET_INLINE EnvironmentFactors<T> FactorsOf(const FilamentSurface<T>& s) {
   using Occlusion = FilamentParameters::SpecularOcclusion;
   const FilamentParameters& p = *s.block;
   const T one(1.0f);
@@ -77,7 +77,7 @@ HWY_INLINE EnvironmentFactors<T> FactorsOf(const FilamentSurface<T>& s) {
 // The blur with which light from behind is read: Filament's level of detail, 4 alpha + 1 + thickness in a map of five
 // levels, by its inverse of level = 4 p (2 - p).
 template <class T>
-HWY_INLINE T RoughnessFromBehind(const FilamentSurface<T>& s) {
+FACET_INLINE T RoughnessFromBehind(const FilamentSurface<T>& s) {
   const T level = s.alpha + T(0.25f) * (T(1.0f) + s.thickness);
   return T(1.0f) - Sqrt(Max(T(1.0f) - level, T(0.0f)));
 }
@@ -111,7 +111,7 @@ HWY_NOINLINE Vec3<T> FromPrefiltered(const FilamentSurface<T>& s, const Lighting
 
 // The same for light from one direction.
 template <class T>
-HWY_INLINE Vec3<T> FromOneDirection(const FilamentSurface<T>& s, const Vec3<T>& light) {
+FACET_INLINE Vec3<T> FromOneDirection(const FilamentSurface<T>& s, const Vec3<T>& light) {
   const EnvironmentFactors<T> f = FactorsOf(s);
   const T zero(0.0f), one(1.0f);
   const Incidence<T> from = IncidenceFrom(s.at, light);

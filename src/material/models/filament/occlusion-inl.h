@@ -19,7 +19,7 @@ namespace filament {
 // The share of a reflection that is not occluded, for microfacets that see the share `visibility` of their
 // surroundings. Lagarde and de Rousiers, 2014, Moving Frostbite to Physically Based Rendering, section 4.10.2.
 template <class T>
-HWY_INLINE T SpecularOcclusion(T n_dot_v, T visibility, T alpha) {
+FACET_INLINE T SpecularOcclusion(T n_dot_v, T visibility, T alpha) {
   const T power = Pow(Max(n_dot_v + visibility, T(0.0f)), Exp2(T(-16.0f) * alpha - T(1.0f)));
   return Clamp(power - T(1.0f) + visibility, T(0.0f), T(1.0f));
 }
@@ -27,7 +27,7 @@ HWY_INLINE T SpecularOcclusion(T n_dot_v, T visibility, T alpha) {
 // The solid angle that two spherical caps share, divided by 2 pi. Oat and Sander, 2007, Ambient Aperture Lighting:
 // exact where one lies within the other or outside of it, and a smooth step between.
 template <class T>
-HWY_INLINE T SharedByCaps(T cosine_a, T cosine_b, T cosine_between) {
+FACET_INLINE T SharedByCaps(T cosine_a, T cosine_b, T cosine_between) {
   const T zero(0.0f), one(1.0f);
   const T a = Acos(Clamp(cosine_a, zero, one)), b = Acos(Clamp(cosine_b, zero, one));
   const T between = Acos(Clamp(cosine_between, T(-1.0f), one));
@@ -43,7 +43,7 @@ HWY_INLINE T SharedByCaps(T cosine_a, T cosine_b, T cosine_between) {
 // 2016, Practical Realtime Strategies for Accurate Indirect Occlusion, section 5.2). It fades out on smooth surfaces,
 // whose cone is so narrow that it would remove whole reflections.
 template <class T>
-HWY_INLINE T SpecularOcclusionOfCones(const Vec3<T>& bent_normal, const Vec3<T>& reflected, T visibility, T alpha) {
+FACET_INLINE T SpecularOcclusionOfCones(const Vec3<T>& bent_normal, const Vec3<T>& reflected, T visibility, T alpha) {
   const T visible = Sqrt(Clamp(T(1.0f) - visibility, T(0.0f), T(1.0f)));
   const T lobe = Exp2(T(-3.321928f) * alpha * alpha);
   const T share = SharedByCaps(visible, lobe, Dot(bent_normal, reflected)) / Max(T(1.0f) - lobe, T(1e-6f));
@@ -54,13 +54,13 @@ HWY_INLINE T SpecularOcclusionOfCones(const Vec3<T>& bent_normal, const Vec3<T>&
 // Occlusion with the light that occluded surfaces of this colour reflect to one another (the same, section 4). The fit
 // is 1.0001 where nothing is occluded, and is bounded to 1.
 template <class T>
-HWY_INLINE T MultiBounceOcclusion(T visibility, T albedo) {
+FACET_INLINE T MultiBounceOcclusion(T visibility, T albedo) {
   const T a = T(2.0404f) * albedo - T(0.3324f), b = T(-4.7951f) * albedo + T(0.6417f),
           c = T(2.7552f) * albedo + T(0.6903f);
   return Min(Max(visibility, ((visibility * a + b) * visibility + c) * visibility), T(1.0f));
 }
 template <class T>
-HWY_INLINE Vec3<T> MultiBounceOcclusion(T visibility, const Vec3<T>& albedo) {
+FACET_INLINE Vec3<T> MultiBounceOcclusion(T visibility, const Vec3<T>& albedo) {
   return {MultiBounceOcclusion(visibility, albedo.x), MultiBounceOcclusion(visibility, albedo.y),
           MultiBounceOcclusion(visibility, albedo.z)};
 }

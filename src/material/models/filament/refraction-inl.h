@@ -28,7 +28,7 @@ struct Refraction {
 
 // Of the medium, for red, green and blue: the stated index, or that of F0.
 template <class T>
-HWY_INLINE Vec3<T> IndicesOf(const FilamentSurface<T>& s) {
+FACET_INLINE Vec3<T> IndicesOf(const FilamentSurface<T>& s) {
   const FilamentParameters& p = *s.block;
   const T one(1.0f), middle = p.ior != 0.0f ? T(p.ior) : IndexOfF0(s.f0.y);
   const T half_spread = (middle - one) * T(0.025f * p.dispersion);
@@ -37,14 +37,14 @@ HWY_INLINE Vec3<T> IndicesOf(const FilamentSurface<T>& s) {
 
 // From where the view enters a sphere of diameter `thickness` to where it leaves it.
 template <class T>
-HWY_INLINE Vec3<T> PathThroughSphere(const SurfaceView<T>& at, T ior, T thickness) {
+FACET_INLINE Vec3<T> PathThroughSphere(const SurfaceView<T>& at, T ior, T thickness) {
   const Vec3<T> inside = RefractedPath(at, ior, T(1.0f));
   return inside * (thickness * Max(-Dot(at.normal, inside), T(0.0f)));
 }
 
 // `metres_per_unit`: 0 where no medium begins at this side of the surface.
 template <class T, class Source>
-HWY_INLINE Refraction<T> RefractionAt(const FilamentSurface<T>& s, const Source& from, T metres_per_unit) {
+FACET_INLINE Refraction<T> RefractionAt(const FilamentSurface<T>& s, const Source& from, T metres_per_unit) {
   using Block = FilamentParameters;
   const Block& p = *s.block;
   const T one(1.0f);

@@ -25,8 +25,8 @@ template <class T>
 struct FibreRoughness {
   T perceptual_roughness{}, alpha{}, inverse_alpha{};
 
-  HWY_INLINE FibreRoughness() {}
-  HWY_INLINE explicit FibreRoughness(T roughness)
+  FACET_INLINE FibreRoughness() {}
+  FACET_INLINE explicit FibreRoughness(T roughness)
       : perceptual_roughness(Clamp(roughness, T(kMinSheenRoughness), T(1.0f))) {
     alpha = AlphaFromPerceptualRoughness(perceptual_roughness);
     inverse_alpha = T(1.0f) / alpha;
@@ -34,22 +34,22 @@ struct FibreRoughness {
 };
 
 template <class T>
-HWY_INLINE Vec3<T> Bounded(const Vec3<T>& v) {
+FACET_INLINE Vec3<T> Bounded(const Vec3<T>& v) {
   const T zero(0.0f), one(1.0f);
   return {Clamp(v.x, zero, one), Clamp(v.y, zero, one), Clamp(v.z, zero, one)};
 }
 template <class T>
-HWY_INLINE T Bounded(T v) {
+FACET_INLINE T Bounded(T v) {
   return Clamp(v, T(0.0f), T(1.0f));
 }
 template <class T>
-HWY_INLINE Vec3<T> Grey(T v) {
+FACET_INLINE Vec3<T> Grey(T v) {
   return {v, v, v};
 }
 
 template <class T>
 struct FilamentSurface {
-  HWY_INLINE FilamentSurface() {}
+  FACET_INLINE FilamentSurface() {}
 
   const FilamentParameters* block = nullptr;
   Shading shading = Shading::Lit;
@@ -84,7 +84,7 @@ struct FilamentSurface {
   Vec3<T> emission{};
 
   // The part of the light that sheen leaves to what is under it.
-  HWY_INLINE T SheenLeft() const { return T(1.0f) - MaxComponent(sheen_color) * fibre_albedo; }
+  FACET_INLINE T SheenLeft() const { return T(1.0f) - MaxComponent(sheen_color) * fibre_albedo; }
 };
 
 // Reads all but what only refraction needs. `base`: straight alpha.
@@ -93,10 +93,10 @@ class SurfaceReader {
  public:
   using Block = FilamentParameters;
 
-  HWY_INLINE SurfaceReader(const Source& from, const Block& p) : from_(from), p_(p) {}
+  FACET_INLINE SurfaceReader(const Source& from, const Block& p) : from_(from), p_(p) {}
 
   template <class Lighting>
-  HWY_INLINE FilamentSurface<T> Read(const Vec4<T>& base, const Vec3<T>& view, const Lighting& lighting) const {
+  FACET_INLINE FilamentSurface<T> Read(const Vec4<T>& base, const Vec3<T>& view, const Lighting& lighting) const {
     FilamentSurface<T> s;
     s.block = &p_;
     s.shading = from_.Has(kLit) ? p_.shading_model : Shading::Unlit;
@@ -120,26 +120,26 @@ class SurfaceReader {
   }
 
  private:
-  HWY_INLINE Blending BlendingOf() const {
+  FACET_INLINE Blending BlendingOf() const {
     const bool blends = from_.Has(kAlphaBlend);
     if (IsSeenThrough(p_) || (p_.blending == Blending::Transparent && blends)) return p_.blending;
     return blends ? Blending::Fade : Blending::Opaque;
   }
 
-  HWY_INLINE void ReadColor(const Vec4<T>& base, FilamentSurface<T>& s) const {
+  FACET_INLINE void ReadColor(const Vec4<T>& base, FilamentSurface<T>& s) const {
     s.base_color = Bounded(Xyz(base));
     s.coverage = Bounded(base.w);
     if (s.blending != Blending::Opaque && s.blending != Blending::Fade) s.base_color = s.base_color * s.coverage;
   }
 
-  HWY_INLINE Vec3<T> ReadEmission(const FilamentSurface<T>& s) const {
+  FACET_INLINE Vec3<T> ReadEmission(const FilamentSurface<T>& s) const {
     const Vec4<T> e = ReadParameter<T>(from_, p_.emissive, SlotOf(&Block::emissive));
     const Vec3<T> radiance = Xyz(e) * Mix(T(1.0f / p_.exposure), T(1.0f), Bounded(e.w));
     return s.blending == Blending::Transparent ? radiance * s.coverage : radiance;
   }
 
   template <class Lighting>
-  HWY_INLINE void ReadCloth(FilamentSurface<T>& s, const Lighting& lighting) const {
+  FACET_INLINE void ReadCloth(FilamentSurface<T>& s, const Lighting& lighting) const {
     s.diffuse_color = s.base_color;
     if (p_.sheen_color.value.x < 0.0f) {
       s.sheen_color = {Sqrt(s.base_color.x), Sqrt(s.base_color.y), Sqrt(s.base_color.z)};
@@ -160,14 +160,14 @@ class SurfaceReader {
   }
 
   template <class Lighting>
-  static HWY_INLINE void SetFibreAlbedo(FilamentSurface<T>& s, const Lighting& lighting) {
+  static FACET_INLINE void SetFibreAlbedo(FilamentSurface<T>& s, const Lighting& lighting) {
     const T reflected = lighting.ClothAlbedo(s.at.n_dot_v, s.sheen.perceptual_roughness);
     s.fibre_albedo = Min(reflected, T(1.0f));
     s.fibre_scale = T(1.0f) / Max(reflected, T(1.0f));
   }
 
   template <class Lighting>
-  HWY_INLINE void ReadMicrofacets(FilamentSurface<T>& s, const Lighting& lighting) const {
+  FACET_INLINE void ReadMicrofacets(FilamentSurface<T>& s, const Lighting& lighting) const {
     const T one(1.0f);
     ReadReflectance(s);
     if (s.shading == Shading::Subsurface) {
@@ -193,7 +193,7 @@ class SurfaceReader {
   }
 
   // Its colours, and the roughness of the base.
-  HWY_INLINE void ReadReflectance(FilamentSurface<T>& s) const {
+  FACET_INLINE void ReadReflectance(FilamentSurface<T>& s) const {
     const T one(1.0f);
     if (s.shading == Shading::SpecularGlossiness) {
       s.f0 = Bounded(ReadParameter<T>(from_, p_.specular_color, SlotOf(&Block::specular_color)));
@@ -226,13 +226,13 @@ class SurfaceReader {
   }
 
   // Whether it has specular factors, which state its F90, too.
-  HWY_INLINE bool ScalesReflectance() const {
+  FACET_INLINE bool ScalesReflectance() const {
     return p_.specular_factor.value != 1.0f || p_.specular_color_factor.value != glm::vec3(1.0f) ||
            from_.Has(BitOf(SlotOf(&Block::specular_factor)) | BitOf(SlotOf(&Block::specular_color_factor)));
   }
 
   // Widened by what the normal turns within the pixel.
-  HWY_INLINE T OverPixel(T perceptual_roughness) const {
+  FACET_INLINE T OverPixel(T perceptual_roughness) const {
     if constexpr (requires { from_.FootprintAlpha2(); }) {
       return WidenedRoughness(perceptual_roughness, from_.FootprintAlpha2());
     } else {
@@ -241,7 +241,7 @@ class SurfaceReader {
   }
 
   // By the index where one is stated and the reflectance is not.
-  HWY_INLINE T DielectricF0() const {
+  FACET_INLINE T DielectricF0() const {
     const bool stated = p_.reflectance.value != 0.5f || from_.Has(BitOf(SlotOf(&Block::reflectance)));
     if (p_.ior != 0.0f && !stated) return F0OfIndex(T(p_.ior));
     return F0OfReflectance(Bounded(ReadParameter<T>(from_, p_.reflectance, SlotOf(&Block::reflectance))));
@@ -249,7 +249,7 @@ class SurfaceReader {
 
   // Sheen and clear coat, which change what is under them.
   template <class Lighting>
-  HWY_INLINE void ReadLayers(FilamentSurface<T>& s, const Lighting& lighting) const {
+  FACET_INLINE void ReadLayers(FilamentSurface<T>& s, const Lighting& lighting) const {
     const T one(1.0f);
     s.has_sheen = HasFibres(p_);
     if (s.has_sheen) {
@@ -275,7 +275,7 @@ class SurfaceReader {
     s.perceptual_roughness = Mix(s.perceptual_roughness, Max(s.perceptual_roughness, s.coat_roughness), s.coat);
   }
 
-  HWY_INLINE FilamentAnisotropy<T> ReadAnisotropy(const FilamentSurface<T>& s) const {
+  FACET_INLINE FilamentAnisotropy<T> ReadAnisotropy(const FilamentSurface<T>& s) const {
     const Slot slot = SlotOf(&Block::anisotropy_direction);
     const glm::vec3& stated = p_.anisotropy_direction.value;
     Vec3<T> direction{T(stated.x), T(stated.y), T(stated.z)};
