@@ -1,7 +1,9 @@
 // The shading models that have parameters of their own, beside those of glTF.
 #pragma once
 
+#include <string>
 #include <variant>
+#include <vector>
 
 #include "facet/models/enterprise.h"
 #include "facet/models/filament.h"
@@ -13,5 +15,10 @@ namespace facet {
 struct ModelParameters : std::variant<LectureParameters, FilamentParameters, EnterpriseParameters> {
   using variant::variant;
 };
+
+// Gives the materials that have one of glTF's models another one, with the parameters that come nearest to what they
+// state; parts without a material get one. Materials of other models stay as they are. Returns a sentence for each
+// material of which something is lost. `model`: not one of glTF's.
+std::vector<std::string> ConvertMaterials(Scene& scene, ShadingModel model);
 
 }  // namespace facet

@@ -7,6 +7,7 @@
 #include "catalog/sphere_sheet.h"
 #include "facet/catalog.h"
 #include "facet/compare.h"
+#include "material/from_gltf.h"
 #include "material/model_parameters.h"
 #include "material/models/models.h"
 
@@ -23,33 +24,14 @@ constexpr std::array kLooks = {
     Look{"half metal", glm::vec3(0.7f, 0.5f, 0.3f), 0.5f}, Look{"gold", glm::vec3(1.0f, 0.78f, 0.34f), 1.0f}};
 constexpr std::array kRoughnesses = {0.0f, 0.25f, 0.5f, 1.0f};
 
-void Set(Textured<float>& parameter, float value) { parameter.value = value; }
-void Set(Textured<glm::vec3>& parameter, const glm::vec3& value) { parameter.value = value; }
-void Set(Textured<glm::vec4>& parameter, const glm::vec3& value) { parameter.value = glm::vec4(value, 1.0f); }
-
-ModelParameters Like(LectureParameters p, const Look& look, float roughness) {
-  Set(p.albedo, look.base_color), Set(p.metalness, look.metalness), Set(p.roughness, roughness);
-  return p;
-}
-ModelParameters Like(FilamentParameters p, const Look& look, float roughness) {
-  Set(p.base_color, look.base_color), Set(p.metallic, look.metalness), Set(p.roughness, roughness);
-  return p;
-}
-ModelParameters Like(EnterpriseParameters p, const Look& look, float roughness) {
-  Set(p.albedo, look.base_color), Set(p.metallic, look.metalness), Set(p.roughness, roughness);
-  return p;
-}
-
 Material MaterialLike(ShadingModel model, const Look& look, float roughness) {
   Material material;
-  material.model = model;
+  material.base_color_factor = glm::vec4(look.base_color, 1.0f);
+  material.metallic_factor = look.metalness;
+  material.roughness_factor = roughness;
   if (HasParameters(model)) {
-    const auto like = [&](const auto& block) { return Like(block, look, roughness); };
-    material.parameters = std::make_shared<const ModelParameters>(std::visit(like, DefaultsOf(model)));
-  } else {
-    material.base_color_factor = glm::vec4(look.base_color, 1.0f);
-    material.metallic_factor = look.metalness;
-    material.roughness_factor = roughness;
+    material.parameters = std::make_shared<const ModelParameters>(ConvertFromGltf(material, model).parameters);
+    material.model = model;
   }
   return material;
 }

@@ -44,36 +44,47 @@ Json ObjectOf(Json properties) {
   return {{"type", "object"}, {"properties", std::move(properties)}, {"additionalProperties", false}};
 }
 
-Json TextureSchema() {
+enum class TextureOf { Color, Number, Direction };
+constexpr const char* kTextureDefinitions[] = {"texture", "textureOfNumber", "textureOfDirection"};
+
+Json TextureSchema(TextureOf of) {
   const Json pair = {{"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 2}, {"maxItems", 2}};
   Json object = ObjectOf({{"image", {{"type", "string"}, {"description", "a picture, relative to the material file"}}},
-                          {"texCoord", {{"type", "integer"}, {"minimum", 0}, {"default", 0}}},
+                          {"texCoord", {{"type", "integer"}, {"minimum", 0}, {"maximum", 65535}, {"default", 0}}},
                           {"offset", pair},
                           {"scale", pair},
                           {"rotation", {{"type", "number"}, {"description", "radians"}}},
                           {"wrap", {{"enum", {"repeat", "mirror", "clamp"}}}},
-                          {"filter", {{"enum", {"nearest", "linear"}}}},
-                          {"channel", {{"enum", {"r", "g", "b", "a"}}, {"description", "of a number"}}},
-                          {"strength", {{"type", "number"}, {"description", "of a direction's x and y"}}}});
+                          {"filter", {{"enum", {"nearest", "linear"}}}}});
+  if (of == TextureOf::Number) object["properties"]["channel"] = {{"enum", {"r", "g", "b", "a"}}, {"default", "r"}};
+  if (of == TextureOf::Direction) {
+    object["properties"]["strength"] = {{"type", "number"}, {"description", "multiplies x and y"}, {"default", 1}};
+  }
   object["required"] = {"image"};
-  return {{"oneOf", {{{"type", "string"}}, object}}};
+  return {{"oneOf", {{{"type", "string"}}, {{"type", "null"}}, object}}};
 }
 
 Json EntryOf(const ModelDescription& model) {
   Json parameters = Json::object(), textures = Json::object();
   for (const ParameterDescription& parameter : model.parameters) {
     parameters[parameter.name] = SchemaOf(parameter);
-    if (parameter.textured) textures[parameter.name] = {{"$ref", "#/$defs/texture"}};
+    if (!parameter.textured) continue;
+    const TextureOf of = parameter.initial.size() == 1   ? TextureOf::Number
+                         : parameter.type == "direction" ? TextureOf::Direction
+                                                         : TextureOf::Color;
+    textures[parameter.name] = {{"$ref", std::string("#/$defs/") + kTextureDefinitions[static_cast<int>(of)]}};
   }
-  Json entry = ObjectOf({{"match",
-                          {{"description", "a material's name, with * and ?, or a list of such"},
-                           {"oneOf", {{{"type", "string"}}, {{"type", "array"}, {"items", {{"type", "string"}}}}}}}},
-                         {"model", {{"const", model.name}}},
-                         {"parameters", ObjectOf(std::move(parameters))},
-                         {"textures", ObjectOf(std::move(textures))},
-                         {"alphaMode", {{"enum", {"OPAQUE", "MASK", "BLEND"}}}},
-                         {"alphaCutoff", {{"type", "number"}, {"minimum", 0}}},
-                         {"doubleSided", {{"type", "boolean"}}}});
+  Json entry = ObjectOf(
+      {{"match",
+        {{"description", "a material's name, with * and ?, or a list of such"},
+         {"oneOf", {{{"type", "string"}}, {{"type", "array"}, {"items", {{"type", "string"}}}, {"minItems", 1}}}}}},
+       {"model", {{"const", model.name}}},
+       {"inherit", {{"type", "boolean"}, {"default", false}}},
+       {"parameters", ObjectOf(std::move(parameters))},
+       {"textures", ObjectOf(std::move(textures))},
+       {"alphaMode", {{"enum", {"OPAQUE", "MASK", "BLEND"}}}},
+       {"alphaCutoff", {{"type", "number"}, {"minimum", 0}}},
+       {"doubleSided", {{"type", "boolean"}}}});
   if (model.model == ShadingModel::Enterprise) entry["properties"]["preset"] = {{"enum", kEnterprisePresets}};
   entry["required"] = {"match", "model"};
   return entry;
@@ -88,7 +99,9 @@ std::string MaterialFileSchema() {
   schema.update(ObjectOf({{"$schema", {{"type", "string"}}},
                           {"materials", {{"type", "array"}, {"items", {{"oneOf", std::move(entries)}}}}}}));
   schema["required"] = {"materials"};
-  schema["$defs"]["texture"] = TextureSchema();
+  for (const TextureOf of : {TextureOf::Color, TextureOf::Number, TextureOf::Direction}) {
+    schema["$defs"][kTextureDefinitions[static_cast<int>(of)]] = TextureSchema(of);
+  }
   return schema.dump(2) + "\n";
 }
 

@@ -7,13 +7,12 @@
 
 #include "base/number_text.h"
 #include "facet/models.h"
+#include "material/from_gltf.h"
 #include "material/model_parameters.h"
 #include "math/round_to_float.h"
 
 namespace facet::gltf {
 namespace {
-
-constexpr float kPi = 3.14159265358979324f;
 
 // The nearest number of the range, with a warning if it is another one.
 float Within(double value, ParameterRange range, const Place& where) {
@@ -66,50 +65,6 @@ void ReadAs(const Json& group, const Place& place, const char* name, Value Enter
   });
 }
 
-// --- What glTF and its extensions say --------------------------------------------------------------------------------
-
-Textured<float> Number(float value, const TextureRef& texture, int channel) {
-  return {value, texture, static_cast<std::int8_t>(channel)};
-}
-
-EnterpriseParameters FromGltf(const Material& m, const Place& place) {
-  EnterpriseParameters p;
-  p.albedo = {glm::vec3(m.base_color_factor), m.base_color_texture};
-  p.metallic = Number(m.metallic_factor, m.metallic_roughness_texture, 2);
-  p.roughness = Number(m.roughness_factor, m.metallic_roughness_texture, 1);
-  p.normal = {.texture = m.normal_texture, .scale = m.normal_scale};
-  if (m.alpha_mode != AlphaMode::Opaque) p.cutout_opacity = Number(m.base_color_factor.a, m.base_color_texture, 3);
-  p.specular = Number(m.specular_factor, m.specular_texture, 3);
-  p.specular_tint = {glm::min(m.specular_color_factor, glm::vec3(1.0f)), m.specular_color_texture};
-  p.transparency = Number(m.transmission_factor, m.transmission_texture, 0);
-  p.translucency = Number(m.diffuse_transmission_factor, m.diffuse_transmission_texture, 3);
-  p.translucency_color = {m.diffuse_transmission_color_factor, m.diffuse_transmission_color_texture};
-  p.clearcoat = Number(m.clearcoat_factor, m.clearcoat_texture, 0);
-  p.clearcoat_roughness = Number(m.clearcoat_roughness_factor, m.clearcoat_roughness_texture, 1);
-  p.clearcoat_normal = {.texture = m.clearcoat_normal_texture, .scale = m.clearcoat_normal_scale};
-  p.sheen_color = {m.sheen_color_factor, m.sheen_color_texture};
-  p.sheen_roughness = Number(m.sheen_roughness_factor, m.sheen_roughness_texture, 3);
-  p.thin_film = Number(m.iridescence_factor, m.iridescence_texture, 0);
-  p.thin_film_ior = std::clamp(m.iridescence_ior, 1.0f, 2.5f);
-  const float micrometres = m.iridescence_thickness_maximum / 1000.0f;
-  p.thin_film_thickness = Number(std::min(micrometres, 1.0f), m.iridescence_thickness_texture, 1);
-  if (m.iridescence_factor != 0.0f && (micrometres > 1.0f || m.iridescence_thickness_texture)) {
-    place.Warn("the model \"enterprise\" has films from 0 to 1 micrometre");
-  }
-  constexpr float kReflectsAll = 1e9f;  // an index of 0 means F0 = 1
-  p.ior = m.ior == 0.0f ? kReflectsAll : std::max(m.ior, 1.0f);
-  p.thin_walled = m.thickness_factor == 0.0f;
-  p.thickness = m.thickness_factor;
-  if (m.thickness_texture) place.Warn("the model \"enterprise\" ignores the thickness texture");
-  p.attenuation_color = m.attenuation_color;
-  p.attenuation_distance = m.attenuation_distance;
-  p.abbe_number = m.dispersion > 0.0f ? RoundToFiniteFloat(20.0 / double{m.dispersion}) : 0.0f;
-  // glTF states radiance.
-  p.emission_color = {m.emissive_factor, m.emissive_texture};
-  p.emission_value = m.emissive_factor == glm::vec3(0.0f) ? 0.0f : RoundToFiniteFloat(kPi * m.emissive_strength);
-  return p;
-}
-
 }  // namespace
 
 bool IsEnterpriseExtension(std::string_view name) {
@@ -124,7 +79,9 @@ bool IsEnterprise(const Json& material, const Place& place) {
 
 void ReadEnterprise(const Json& object, const Place& place, const ReadTextureInfo& read_texture, Material& material) {
   using P = EnterpriseParameters;
-  P p = FromGltf(material, place);
+  const FromGltf core = ConvertFromGltf(material, ShadingModel::Enterprise);
+  if (!core.lost.empty()) place.Warn(SentenceOf(core.lost, ShadingModel::Enterprise));
+  P p = std::get<P>(core.parameters);
   // glTF's sheen is smooth by default, DSPBR's is not.
   if (ExtensionOf(object, "KHR_materials_sheen", place) == nullptr) p.sheen_roughness = P().sheen_roughness;
 

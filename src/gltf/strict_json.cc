@@ -15,33 +15,72 @@ using Json = StrictJson;
 // objects with very many keys, for which the parser takes quadratic time.
 class KeyGuard : public nlohmann::json_sax<Json> {
  public:
-  explicit KeyGuard(const std::string& file) : file_(file) {}
+  KeyGuard(const std::string& text, const std::string& file) : text_(text), file_(file) {}
 
-  bool start_object(std::size_t) override { return seen_.emplace_back(), true; }
-  bool end_object() override { return seen_.pop_back(), true; }
+  bool start_object(std::size_t) override { return Open(false); }
+  bool end_object() override { return open_.pop_back(), true; }
+  bool start_array(std::size_t) override { return Open(true); }
+  bool end_array() override { return open_.pop_back(), true; }
   bool key(std::string& name) override {
     constexpr std::size_t kMostKeys = 1000;
-    if (!seen_.back().insert(name).second) Fail("the key " + Quoted(name) + " is twice in one object");
-    if (seen_.back().size() > kMostKeys) Fail("an object has more than " + std::to_string(kMostKeys) + " keys");
+    Level& object = open_.back();
+    if (object.keys.size() == kMostKeys) Fail("has more than " + std::to_string(kMostKeys) + " keys", open_.size() - 1);
+    object.key = name;
+    if (!object.keys.insert(name).second) Fail("the key is twice in one object", open_.size());
     return true;
   }
-  bool null() override { return true; }
-  bool boolean(bool) override { return true; }
-  bool number_integer(number_integer_t) override { return true; }
-  bool number_unsigned(number_unsigned_t) override { return true; }
-  bool number_float(number_float_t, const std::string&) override { return true; }
-  bool string(std::string&) override { return true; }
-  bool binary(binary_t&) override { return true; }
-  bool start_array(std::size_t) override { return true; }
-  bool end_array() override { return true; }
-  // ParseStrictJson() reports syntax errors, with line and column.
-  bool parse_error(std::size_t, const std::string&, const Json::exception&) override { return false; }
+  bool null() override { return Value(); }
+  bool boolean(bool) override { return Value(); }
+  bool number_integer(number_integer_t) override { return Value(); }
+  bool number_unsigned(number_unsigned_t) override { return Value(); }
+  bool number_float(number_float_t, const std::string&) override { return Value(); }
+  bool string(std::string&) override { return Value(); }
+  bool binary(binary_t&) override { return Value(); }
+  bool parse_error(std::size_t byte, const std::string&, const Json::exception& error) override {
+    const std::string before = text_.substr(0, byte == 0 ? 0 : byte - 1);
+    const auto line = 1 + std::count(before.begin(), before.end(), '\n');
+    const std::size_t column = before.size() - (before.rfind('\n') + 1) + 1;  // npos + 1 is 0
+    std::string what = Printable(error.what());
+    what.erase(0, what.find("] ") + 2);                                          // the exception's number
+    if (what.starts_with("parse error at")) what.erase(0, what.find(": ") + 2);  // the position
+    throw Error(ErrorCode::InvalidInput, what, file_ + ":" + std::to_string(line) + ":" + std::to_string(column));
+  }
 
  private:
-  void Fail(const std::string& message) const { throw Error(ErrorCode::InvalidInput, message, file_); }
+  // An object or array that has begun and not ended.
+  struct Level {
+    bool is_array;
+    std::size_t index;  // in an array, of the next value
+    std::string key;    // in an object, the last one
+    std::set<std::string> keys;
+  };
 
+  bool Value() {
+    if (!open_.empty()) ++open_.back().index;
+    return true;
+  }
+  bool Open(bool is_array) {
+    open_.push_back({is_array, 0, {}, {}});
+    if (open_.size() > 1) ++open_[open_.size() - 2].index;
+    return true;
+  }
+  // `depth`: of the JSON pointer.
+  [[noreturn]] void Fail(const std::string& message, std::size_t depth) const {
+    Json::json_pointer pointer;
+    for (std::size_t i = 0; i < depth; ++i) {
+      if (open_[i].is_array) {
+        pointer /= open_[i].index - 1;
+      } else {
+        pointer /= open_[i].key;
+      }
+    }
+    throw Error(ErrorCode::InvalidInput, message,
+                pointer.empty() ? file_ : file_ + ": " + Printable(pointer.to_string()));
+  }
+
+  const std::string& text_;
   const std::string& file_;
-  std::vector<std::set<std::string>> seen_;
+  std::vector<Level> open_;
 };
 
 }  // namespace
@@ -52,20 +91,9 @@ StrictJson ParseStrictJson(const std::string& text, const std::string& file) {
     throw Error(ErrorCode::InvalidInput, "JSON is nested deeper than " + std::to_string(kMaxJsonDepth) + " levels",
                 file);
   }
-  try {
-    KeyGuard guard(file);
-    Json::sax_parse(text, &guard);
-    return Json::parse(text);
-  } catch (const Json::parse_error& error) {
-    const std::string before = text.substr(0, error.byte == 0 ? 0 : error.byte - 1);
-    const auto line = 1 + std::count(before.begin(), before.end(), '\n');
-    const std::size_t column = before.size() - (before.rfind('\n') + 1) + 1;  // npos + 1 is 0
-    std::string what = Printable(error.what());
-    what.erase(0, what.find(": ") + 2);  // removes the position in the parser's message
-    throw Error(ErrorCode::InvalidInput, what, file + ":" + std::to_string(line) + ":" + std::to_string(column));
-  } catch (const Json::exception& error) {
-    throw Error(ErrorCode::InvalidInput, Printable(error.what()), file);
-  }
+  KeyGuard guard(text, file);
+  Json::sax_parse(text, &guard);
+  return Json::parse(text);
 }
 
 }  // namespace facet

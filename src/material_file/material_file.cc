@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -20,9 +21,12 @@
 #include "facet/models.h"
 #include "gltf/pictures.h"
 #include "gltf/strict_json.h"
+#include "material/features.h"
+#include "material/from_gltf.h"
 #include "material/model_parameters.h"
 #include "material/models/models.h"
 #include "math/round_to_float.h"
+#include "scene/topology.h"
 
 namespace facet {
 namespace {
@@ -40,6 +44,7 @@ std::string InWords(ParameterRange range) {
 void ReadValue(const JsonValue& value, const RowOptions& options, float& out) {
   const double number = value.Expect(value.json.is_number(), "number").json.get<double>();
   out = RoundToFiniteFloat(number);
+  if (std::abs(number) > double{std::numeric_limits<float>::max()}) value.Fail("is too large for a number of 32 bits");
   const ParameterRange& range = options.range;
   if (out != range.exception && !(number >= double{range.low} && number <= double{range.high})) {
     value.Fail(ShortNumber(number) + " is out of range", InWords(range));
@@ -125,6 +130,7 @@ class MaterialFile {
 
     const JsonValue root{json, StrictJson::json_pointer(), name_};
     root.ExpectObject(std::array{"$schema", "materials"});
+    if (root.Has("$schema")) root["$schema"].Expect(root["$schema"].json.is_string(), "string");
     if (!root.Has("materials")) root.Fail("has no list \"materials\"");
     const JsonValue entries = root["materials"];
     entries.Expect(entries.json.is_array(), "list");
@@ -137,39 +143,78 @@ class MaterialFile {
  private:
   // Nothing in the scene changes before all of the file has been read.
   void Commit() {
-    for (Mesh& mesh : scene_.meshes) {
-      for (Primitive& primitive : mesh.primitives) {
-        if (default_material_ >= 0 && primitive.material < 0) primitive.material = default_material_;
-      }
-    }
+    UseDefaultMaterial(scene_, default_material_);
     scene_.materials = std::move(materials_);
     scene_.images = std::move(images_);
     scene_.textures = std::move(textures_);
+    for (const Mesh& mesh : scene_.meshes) {
+      for (const Primitive& primitive : mesh.primitives) {
+        const auto changed = place_of_change_.find(std::size_t(primitive.material));
+        if (changed != place_of_change_.end()) WarnOfMissingSets(mesh, primitive, changed->second);
+      }
+    }
+  }
+
+  // `place`: of the entry that changed the primitive's material.
+  void WarnOfMissingSets(const Mesh& mesh, const Primitive& primitive, const std::string& place) {
+    const Material& material = scene_.materials[std::size_t(primitive.material)];
+    const bool on_surface = ClassOf(primitive.topology) == PrimitiveClass::Triangles || !primitive.normals.empty();
+    ForEachSlotOf(material.model, FeaturesOf(material, on_surface), [&](const SlotInfo& slot) {
+      const auto set = std::size_t(TextureIn(material, slot).tex_coord);
+      if (set < primitive.tex_coords.size() && !primitive.tex_coords[set].empty()) return;
+      const std::string warning = place + ": mesh " + Quoted(mesh.name) + " has no TEXCOORD_" + std::to_string(set) +
+                                  ", by which " + slot.name + " is read; its texel at 0, 0 is used everywhere";
+      if (std::ranges::find(report_.warnings, warning) == report_.warnings.end()) report_.warnings.push_back(warning);
+    });
   }
 
   void ReadEntry(const JsonValue& entry) {
-    entry.ExpectObject(
-        std::array{"match", "model", "preset", "parameters", "textures", "alphaMode", "alphaCutoff", "doubleSided"});
+    entry.ExpectObject(std::array{"match", "model", "preset", "inherit", "parameters", "textures", "alphaMode",
+                                  "alphaCutoff", "doubleSided"});
     for (const char* key : {"match", "model"}) {
       if (!entry.Has(key)) entry.Fail(std::string("has no \"") + key + "\"");
     }
-    Material changes;
-    changes.model = ReadModel(entry["model"]);
-    auto parameters = DefaultsOf(changes.model);
-    if (entry.Has("preset")) parameters = ReadPreset(entry["preset"], changes.model);
-    std::visit([&](auto& block) { ReadBlock(entry, block, changes); }, parameters);
-    changes.parameters = std::make_shared<const ModelParameters>(std::move(parameters));
-    ReadCommon(entry, changes);
+    const ShadingModel model = ReadModel(entry["model"]);
+    bool inherits = false;
+    if (entry.Has("inherit")) ReadValue(entry["inherit"], {}, inherits);
+    if (inherits && entry.Has("preset")) entry["preset"].Fail("cannot go together with \"inherit\"");
+    Material changes =
+        ReadChanges(entry, model, entry.Has("preset") ? ReadPreset(entry["preset"], model) : DefaultsOf(model));
     WarnOfIgnored(*changes.parameters, entry);
     for (const std::size_t index : Matching(entry["match"])) {
       static const Material plain;
       const Material& of_scene = index < scene_.materials.size() ? scene_.materials[index] : plain;
+      if (inherits) changes = ReadChanges(entry, model, Inherited(entry, of_scene, model));
+      place_of_change_[index] = entry.Place();
       Material& material = materials_[index] = changes;
       material.name = of_scene.name;
       if (!states_alpha_mode_) material.alpha_mode = of_scene.alpha_mode;
       if (!entry.Has("alphaCutoff")) material.alpha_cutoff = of_scene.alpha_cutoff;
       if (!entry.Has("doubleSided")) material.double_sided = of_scene.double_sided;
     }
+  }
+
+  // A material of these parameters, with what the entry says.
+  Material ReadChanges(const JsonValue& entry, ShadingModel model, ModelParameters parameters) {
+    Material changes;
+    changes.model = model;
+    std::visit([&](auto& block) { ReadBlock(entry, block, changes); }, parameters);
+    changes.parameters = std::make_shared<const ModelParameters>(std::move(parameters));
+    ReadCommon(entry, changes);
+    return changes;
+  }
+
+  // What a material of the scene states, in the model's parameters.
+  ModelParameters Inherited(const JsonValue& entry, const Material& of_scene, ShadingModel model) {
+    if (of_scene.model == model) return *of_scene.parameters;
+    const std::string where = entry.Place() + ": material " + Quoted(of_scene.name);
+    if (of_scene.parameters != nullptr) {
+      report_.warnings.push_back(where + " is of another model, so nothing is inherited");
+      return DefaultsOf(model);
+    }
+    FromGltf converted = ConvertFromGltf(of_scene, model);
+    if (!converted.lost.empty()) report_.warnings.push_back(where + ": " + SentenceOf(converted.lost, model));
+    return std::move(converted.parameters);
   }
 
   static ShadingModel ReadModel(const JsonValue& value) {
@@ -198,6 +243,7 @@ class MaterialFile {
     if (!match.json.is_array()) {
       AddMatching(match, found);
     } else {
+      if (match.json.empty()) match.Fail("is empty", "give a name or a pattern");
       for (std::size_t i = 0; i < match.json.size(); ++i) {
         AddMatching({match.json[i], match.pointer / i, name_}, found);
       }
@@ -208,31 +254,23 @@ class MaterialFile {
   void AddMatching(const JsonValue& pattern, std::vector<std::size_t>& found) {
     const std::string& text = pattern.Text();
     const auto matches = [&](const std::string& name) { return fnmatch(text.c_str(), name.c_str(), 0) == 0; };
-    if (matches("")) NameDefaultMaterial();
+    if (matches("")) AddDefaultMaterial(scene_, materials_, default_material_);
     const std::size_t before = found.size();
     for (std::size_t i = 0; i < materials_.size(); ++i) {
       if (matches(materials_[i].name)) found.push_back(i);
     }
     if (found.size() != before) return;
     constexpr std::size_t kMostNamed = 12;
+    constexpr std::size_t kLongest = 60;
     std::vector<std::string> names;
     for (const Material& material : materials_) {
       if (names.size() == kMostNamed) break;
-      names.push_back(Quoted(material.name));
+      const std::string& name = material.name;
+      names.push_back(Quoted(name.size() <= kLongest ? name : name.substr(0, kLongest) + "..."));
     }
     if (names.size() < materials_.size()) names.emplace_back("...");
     pattern.Fail("no material's name matches " + Quoted(text),
                  names.empty() ? "the scene has no materials" : "the scene has " + Joined(names));
-  }
-
-  // Primitives without a material get one of their own, with an empty name.
-  void NameDefaultMaterial() {
-    const auto lacks = [](const Mesh& mesh) {
-      return std::ranges::any_of(mesh.primitives, [](const Primitive& p) { return p.material < 0; });
-    };
-    if (default_material_ >= 0 || std::ranges::none_of(scene_.meshes, lacks)) return;
-    default_material_ = static_cast<int>(materials_.size());
-    materials_.emplace_back();
   }
 
   template <class Block>
@@ -243,13 +281,14 @@ class MaterialFile {
     };
     const JsonValue parameters = member("parameters"), textures = member("textures");
     RefuseUnknown<Block>(parameters, &textures);
-    states_alpha_mode_ = false;
+    states_alpha_mode_ = states_blending_ = false;
     ForEachParameterOf(block, [&]<class Value>(const auto& parameter, Value& value) {
       const bool has_value = parameters.Has(parameter.name);
       if (has_value) ReadValue(parameters[parameter.name], parameter, value);
       bool has_texture = false;
       if constexpr (kHasTexture<Value>) {
-        has_texture = textures.Has(parameter.name);
+        has_texture = textures.Has(parameter.name) && !textures[parameter.name].json.is_null();
+        if (textures.Has(parameter.name) && !has_texture) value.texture = {};
         if (has_texture) {
           ReadTexture(textures[parameter.name], value);
           if constexpr (!std::is_same_v<Value, TangentSpaceNormal>) {
@@ -265,7 +304,7 @@ class MaterialFile {
     if constexpr (requires { AlphaModeOf(block); }) {
       if (const std::optional<AlphaMode> mode = AlphaModeOf(block)) {
         changes.alpha_mode = *mode;
-        states_alpha_mode_ = true;
+        states_alpha_mode_ = states_blending_ = true;
       }
     }
   }
@@ -278,6 +317,7 @@ class MaterialFile {
 
   void ReadCommon(const JsonValue& entry, Material& changes) {
     if (entry.Has("alphaMode")) {
+      if (states_blending_) entry["alphaMode"].Fail("cannot go together with the parameter \"blending\"");
       static constexpr std::array kWords = {"OPAQUE", "MASK", "BLEND"};
       ReadValue(entry["alphaMode"], {.words = kWords}, changes.alpha_mode);
       states_alpha_mode_ = true;
@@ -347,6 +387,8 @@ class MaterialFile {
   }
 
   int TextureFor(const JsonValue& picture, const Sampler& sampler) {
+    const std::string place = picture.pointer.to_string();
+    if (const auto read = texture_of_place_.find(place); read != texture_of_place_.end()) return read->second;
     std::filesystem::path path;
     try {
       path = DataPath(path_, picture.Text(), root_);
@@ -361,7 +403,7 @@ class MaterialFile {
       report_.files.push_back(path);
     }
     textures_.push_back({path.filename().string(), known->second, sampler});
-    return static_cast<int>(textures_.size()) - 1;
+    return texture_of_place_[place] = static_cast<int>(textures_.size()) - 1;
   }
 
   Scene& scene_;
@@ -372,9 +414,10 @@ class MaterialFile {
   std::vector<Material> materials_;
   std::vector<SceneImage> images_;
   std::vector<Texture> textures_;
-  std::map<std::string, int> image_of_path_;
+  std::map<std::string, int> image_of_path_, texture_of_place_;
+  std::map<std::size_t, std::string> place_of_change_;  // of the entry, by material
   int default_material_ = -1;       // of primitives without one; -1: they are left without
-  bool states_alpha_mode_ = false;  // of the entry that is being read
+  bool states_alpha_mode_ = false, states_blending_ = false;  // of the entry that is being read
 };
 
 }  // namespace

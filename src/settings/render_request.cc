@@ -12,9 +12,12 @@
 #include "base/memory_budget.h"
 #include "base/printable.h"
 #include "facet/error.h"
+#include "facet/models.h"
 #include "image/codec.h"
 #include "light/environment_source.h"
 #include "light/studio.h"
+#include "material/model_parameters.h"
+#include "material/models/models.h"
 
 namespace facet {
 namespace {
@@ -33,6 +36,16 @@ FeatureSet ParseFeatures(Text where, Text text) {
   FeatureSet features;
   for (const int i : ParseChoices(where, text, words)) features.Add(kFeatureWords[std::size_t(i)].feature);
   return features;
+}
+
+// A model that is not one of glTF's.
+ShadingModel ParseOwnModel(Text where, Text text) {
+  std::vector<Text> words;
+  for (const ModelInfo& model : kModels) {
+    if (HasParameters(model.model)) words.push_back(model.word);
+  }
+  const std::size_t first = kModels.size() - words.size();
+  return kModels[first + std::size_t(ParseChoice(where, text, words))].model;
 }
 
 // The help of "without": the words in lines as wide as those of the other options.
@@ -151,6 +164,10 @@ constexpr std::array kOptions = {
                   }},
     RequestOption{"variant", kScene, "NAME|INDEX", "", "A material variant of the file [none]",
                   [](RenderRequest& r, Text, Text text) { r.variant = text; }},
+    RequestOption{
+        "model", kScene, "NAME", "",
+        "Another shading model for its materials, with what\nthey state: lecture, filament or enterprise [their own]",
+        [](RenderRequest& r, Text where, Text text) { r.model = ParseOwnModel(where, text); }},
     RequestOption{"materials", kScene, "FILE", "",
                   "Other shading models for its materials, as a JSON\nfile says (docs/material-files.md) [its own]",
                   [](RenderRequest& r, Text, Text text) { r.materials = text; }},
@@ -308,6 +325,11 @@ std::filesystem::path PathOf(const std::filesystem::path& name, const NamedBy& n
 
 void ApplyMaterials(const RenderRequest& request, LoadedScene& loaded, const LoadOptions& options,
                     const NamedBy& named_by) {
+  if (request.model) {
+    for (const std::string& sentence : ConvertMaterials(loaded.scene, *request.model)) {
+      loaded.report.warnings.push_back("--model: " + sentence);
+    }
+  }
   if (!request.materials) return;
   const LoadReport read = ApplyMaterialFile(loaded.scene, PathOf(*request.materials, named_by, "--materials"), options);
   loaded.report.file_bytes += read.file_bytes;

@@ -26,6 +26,7 @@ struct RenderRequest {
   std::optional<Orbit> orbit;
   std::optional<glm::dvec3> target;
   std::optional<double> fov_degrees;
+  std::optional<ShadingModel> model;                      // of all materials; not one of glTF's
   std::optional<std::filesystem::path> materials;         // a material file
   std::optional<std::filesystem::path> environment;       // an image file; none: see settings.environment.kind
   std::map<std::string, std::string, std::less<>> given;  // option name -> text, as given
@@ -64,7 +65,8 @@ struct NamedBy {
   std::filesystem::path file, root;
 };
 
-// Gives the scene the materials of the request's material file, if there is one, and adds to the report what was read.
+// Gives the scene's materials the request's model and those of its material file, as far as it has these, and adds to
+// the report what was read and what was lost.
 // Throws what ApplyMaterialFile() throws.
 void ApplyMaterials(const RenderRequest& request, LoadedScene& loaded, const LoadOptions& options = {},
                     const NamedBy& named_by = {});

@@ -16,11 +16,6 @@ namespace HWY_NAMESPACE {
 
 void EnterpriseKernel(const ShadeTask& task) {
   Surface<Float> surfaces[2];
-  ShadePackets(task, Enterprise(), surfaces);
-}
-
-void SeenThroughEnterpriseKernel(const ShadeTask& task) {
-  Surface<Float> surfaces[2];
   ShadePackets(task, ModelSeenThrough<Enterprise>{task}, surfaces);
 }
 
@@ -32,12 +27,7 @@ HWY_AFTER_NAMESPACE();
 namespace facet {
 
 FACET_EXPORT(EnterpriseKernel);
-FACET_EXPORT(SeenThroughEnterpriseKernel);
-
-void ShadeEnterprise(const ShadeTask& task) {
-  if (task.seen_through != nullptr) return FACET_DISPATCH(SeenThroughEnterpriseKernel)(task);
-  FACET_DISPATCH(EnterpriseKernel)(task);
-}
+void ShadeEnterprise(const ShadeTask& task) { FACET_DISPATCH(EnterpriseKernel)(task); }
 
 }  // namespace facet
 #endif

@@ -1,4 +1,4 @@
-// The kernels of the model "filament".
+// The kernel of the model "filament".
 #include "material/models/models.h"
 #include "shade/shade_fragments.h"
 
@@ -16,10 +16,6 @@ namespace HWY_NAMESPACE {
 
 void FilamentKernel(const ShadeTask& task) {
   Surface<Float> surfaces[2];
-  ShadePackets(task, Filament(), surfaces);
-}
-void FilamentThroughKernel(const ShadeTask& task) {
-  Surface<Float> surfaces[2];
   ShadePackets(task, ModelSeenThrough<Filament>{task}, surfaces);
 }
 
@@ -31,11 +27,7 @@ HWY_AFTER_NAMESPACE();
 namespace facet {
 
 FACET_EXPORT(FilamentKernel);
-FACET_EXPORT(FilamentThroughKernel);
-void ShadeFilament(const ShadeTask& task) {
-  if (task.seen_through != nullptr) return FACET_DISPATCH(FilamentThroughKernel)(task);
-  FACET_DISPATCH(FilamentKernel)(task);
-}
+void ShadeFilament(const ShadeTask& task) { FACET_DISPATCH(FilamentKernel)(task); }
 
 }  // namespace facet
 #endif

@@ -27,10 +27,6 @@ FACET_GLTF_MODELS(FACET_MODEL_KERNEL)
 
 void LayeredKernel(const ShadeTask& task) {
   Surface<Float> surfaces[2];
-  ShadePackets(task, MetallicRoughness(), surfaces);
-}
-void SeenThroughKernel(const ShadeTask& task) {
-  Surface<Float> surfaces[2];
   ShadePackets(task, ModelSeenThrough<MetallicRoughness>{task}, surfaces);
 }
 
@@ -106,7 +102,6 @@ namespace facet {
 FACET_GLTF_MODELS(FACET_MODEL_EXPORT)
 #undef FACET_MODEL_EXPORT
 FACET_EXPORT(LayeredKernel);
-FACET_EXPORT(SeenThroughKernel);
 FACET_EXPORT(AlphaKernel);
 FACET_EXPORT(EnvironmentAtKernel);
 FACET_EXPORT(BackgroundKernel);
@@ -119,9 +114,7 @@ bool IsLayered(const FrameMaterial& material) { return material.Has(kLayerFeatur
 }  // namespace
 
 void ShadeFragments(const ShadeTask& task) {
-  if (IsLayered(*task.material)) {
-    return task.seen_through != nullptr ? FACET_DISPATCH(SeenThroughKernel)(task) : FACET_DISPATCH(LayeredKernel)(task);
-  }
+  if (IsLayered(*task.material)) return FACET_DISPATCH(LayeredKernel)(task);
   switch (task.material->model) {
 #define FACET_MODEL_CASE(Name) \
   case ShadingModel::Name: return FACET_DISPATCH(Name##Kernel)(task);

@@ -28,12 +28,13 @@ FACET_INLINE const Shaded<T>& OwnOf(const ShadedThrough<T>& shaded) {
   return shaded.own;
 }
 
-// The other results of fragments i and after. Those that are not finite let nothing pass.
+// The other results of fragments i and after, if the task wants them. Those that are not finite let nothing pass.
 template <class T>
 FACET_INLINE void StoreSeenThrough(const ShadeTask&, const Surface<T>&, std::size_t, const Shaded<T>&) {}
 template <class T>
 FACET_INLINE void StoreSeenThrough(const ShadeTask& task, const Surface<T>& surface, std::size_t i,
                                    const ShadedThrough<T>& shaded) {
+  if (task.seen_through == nullptr) return;
   const SeenThroughOutputs& out = *task.seen_through;
   const T zero(0.0f), one(1.0f);
   const auto put = [i](T value, float* to) HWY_ATTR {
@@ -67,7 +68,7 @@ FACET_INLINE void StoreSeenThrough(const ShadeTask& task, const Surface<T>& surf
   }
 }
 
-// Shades by a model that returns ShadedThrough. Surfaces cover what their alpha mode says.
+// Shades by a model that returns ShadedThrough. Surfaces that are seen through cover what their alpha mode says.
 template <class Model>
 struct ModelSeenThrough {
   const ShadeTask& task;
@@ -76,6 +77,7 @@ struct ModelSeenThrough {
   FACET_INLINE ShadedThrough<T> operator()(const Surface<T>& surface, const Material& material,
                                            const Lighting& lighting) const {
     ShadedThrough<T> shaded = Model::Through(surface, material, lighting);
+    if (task.seen_through == nullptr) return shaded;
     T& alpha = shaded.own.alpha;
     if (task.material->alpha_mode == AlphaMode::Opaque) alpha = T(1.0f);
     if (task.material->alpha_mode == AlphaMode::Mask) {

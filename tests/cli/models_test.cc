@@ -66,6 +66,21 @@ TEST_F(FacetMaterials, ChangeThePictureAndTheDescription) {
   EXPECT_NE(rough, smooth);
 }
 
+TEST_F(FacetMaterials, OneModelForAllIsAnEntryThatInherits) {
+  const auto hash = [&](const std::string& model) {
+    const Outcome run = RunFacet({"hash", in_, "--scene", "Lit", "--size", "32x32", "--model", model});
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    return run.out;
+  };
+  for (const std::string model : {"lecture", "filament", "enterprise"}) {
+    EXPECT_EQ(hash(model), Hash(R"({"materials": [{"match": "*", "inherit": true, "model": ")" + model + "\"}]}").out);
+  }
+  EXPECT_NE(hash("lecture"), hash("filament"));
+  const Outcome unknown = RunFacet({"hash", in_, "--model", "phong"});
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_NE(unknown.err.find("lecture, filament or enterprise"), std::string::npos) << unknown.err;
+}
+
 TEST_F(FacetMaterials, WrongFilesAreOneLineWithThePlace) {
   const Outcome run = Hash(R"({"materials": [{"match": "*", "model": "lecture", "parameters": {"roughness": 2}}]})");
   EXPECT_EQ(run.exit_code, 4);

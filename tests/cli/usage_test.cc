@@ -57,6 +57,7 @@ TEST(FacetHelp, NamesEveryOptionAsTheManualDoes) {
                              "--contrast",
                              "--saturation",
                              "--curves",
+                             "--model",
                              "--materials",
                              "--animation",
                              "--time",

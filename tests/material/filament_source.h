@@ -1,6 +1,8 @@
 // A material of the model "filament" without textures, for tests: its source, and lights.
 #pragma once
 
+#include <deque>
+
 #include "light/lighting-inl.h"
 #include "material/models/filament-inl.h"
 
@@ -47,9 +49,10 @@ struct Uniform : lanes::LightingView<T> {
 template <class T>
 lanes::FilamentScattering<T> Scattering(const FilamentParameters& p, const Vec3<T>& view, const LightingData& tables,
                                         MaterialFeatures more = 0) {
+  static std::deque<Source<T>> kept;  // what is returned points to its parameters
   const glm::vec4& c = p.base_color.value;
   const Vec4<T> base{T(c.x), T(c.y), T(c.z), T(c.w)};
-  return lanes::Filament::Make<T>(Source<T>(p, more), base, view, Uniform<T>(tables));
+  return lanes::Filament::Make<T>(kept.emplace_back(p, more), base, view, Uniform<T>(tables));
 }
 
 }  // namespace facet::filament_test

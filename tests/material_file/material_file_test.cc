@@ -119,11 +119,64 @@ TEST_F(MaterialFileTest, PrimitivesWithoutAMaterialGetOne) {
   EXPECT_EQ(scene_.materials[3].model, ShadingModel::Lecture);
 }
 
+TEST_F(MaterialFileTest, InheritanceStartsFromWhatTheSceneStates) {
+  WritePicture("a.png");
+  scene_.images.push_back({"rust", nullptr});
+  scene_.textures.push_back({"rust", 0, {}});
+  Material& red = scene_.materials[0];
+  red.base_color_factor = {0.8f, 0.1f, 0.05f, 1.0f};
+  red.roughness_factor = 0.25f;
+  red.metallic_roughness_texture.texture = 0;
+  red.clearcoat_factor = 1.0f;
+  const LoadReport report = Apply(R"({"materials": [
+      {"match": "paint*", "model": "lecture", "inherit": true, "parameters": {"metalness": 0.5},
+       "textures": {"metalness": null, "albedo": "a.png"}}]})");
+  const auto& block = std::get<LectureParameters>(*scene_.materials[0].parameters);
+  EXPECT_EQ(block.albedo.value, glm::vec4(1.0f)) << "a new texture takes the value's place";
+  EXPECT_EQ(block.albedo.texture.texture, 1);
+  EXPECT_EQ(block.roughness, (Textured<float>{0.25f, red.metallic_roughness_texture, 1}));
+  EXPECT_EQ(block.metalness.value, 0.5f);
+  EXPECT_FALSE(block.metalness.texture) << "null takes it away";
+  EXPECT_EQ(std::get<LectureParameters>(*scene_.materials[1].parameters).roughness.value, 1.0f) << "glTF's default";
+  EXPECT_EQ(scene_.textures.size(), 2u) << "one entry's texture is added once";
+  ASSERT_EQ(report.warnings.size(), 1u);
+  EXPECT_NE(
+      report.warnings[0].find("look.json: /materials/0: material 'paint red': the model \"lecture\" does not have "
+                              "clear coat"),
+      std::string::npos)
+      << report.warnings[0];
+  EXPECT_NE(ErrorOfEntry(R"("model": "enterprise", "inherit": true, "preset": "glass")").find("/preset: cannot go"),
+            std::string::npos);
+}
+
+TEST_F(MaterialFileTest, MissingTextureCoordinatesAreSaid) {
+  WritePicture("a.png");
+  Primitive& primitive = scene_.meshes.emplace_back(Mesh{"body", {}, {}}).primitives.emplace_back();
+  primitive.material = 0;
+  primitive.tex_coords = {{{}, {}, {}}};
+  const LoadReport report = Apply(R"({"materials": [{"match": "*", "model": "lecture", "textures":
+      {"albedo": "a.png", "roughness": {"image": "a.png", "texCoord": 1}}}]})");
+  ASSERT_EQ(report.warnings.size(), 1u);
+  EXPECT_NE(
+      report.warnings[0].find("look.json: /materials/0: mesh 'body' has no TEXCOORD_1, by which roughness is read"),
+      std::string::npos)
+      << report.warnings[0];
+}
+
 TEST_F(MaterialFileTest, WrongFilesAreRefusedWithThePlaceAndWhatIsAccepted) {
   const auto starts = [](const std::string& message, const std::string& start) {
     EXPECT_EQ(message.substr(0, start.size()), start);
   };
   starts(ErrorOf(R"({"materials": [)"), "look.json:1:");
+  starts(ErrorOf(R"({"materials": [{"match": "*", "model": "lecture", "parameters": {"f0": 0.1, "f0": 0.2}}]})"),
+         "look.json: /materials/0/parameters/f0: the key is twice in one object");
+  starts(ErrorOf(R"({"materials": [{"match": "*", "model": 1e400}]})"), "look.json:1:");
+  starts(ErrorOf(R"({"$schema": 3, "materials": []})"), "look.json: /$schema: is no string");
+  starts(ErrorOf(R"({"materials": [{"match": [], "model": "lecture"}]})"), "look.json: /materials/0/match: is empty");
+  starts(ErrorOfEntry(R"("model": "filament", "parameters": {"emissive": [1e39, 0, 0, 1]})"),
+         "look.json: /materials/0/parameters/emissive/0: is too large");
+  starts(ErrorOfEntry(R"("model": "filament", "parameters": {"blending": "add"}, "alphaMode": "BLEND")"),
+         "look.json: /materials/0/alphaMode: cannot go together");
   starts(ErrorOf(R"({"material": []})"), "look.json: /material: unknown key");
   starts(ErrorOf(R"({})"), "look.json: has no list \"materials\"");
   starts(ErrorOf(R"({"materials": {}})"), "look.json: /materials: is no list");

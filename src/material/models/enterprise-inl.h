@@ -157,7 +157,6 @@ struct Enterprise : OwnModel<Enterprise> {
     return EnterpriseScattering<T>(from, ReadEnterpriseInputs<T>(from, base), view, lighting);
   }
 
-  // For materials with transmission.
   template <class T, class Material, class Lighting>
   static FACET_INLINE ShadedThrough<T> Through(const Surface<T>& surface, const Material& material,
                                                const Lighting& lighting) {
@@ -168,13 +167,16 @@ struct Enterprise : OwnModel<Enterprise> {
       const int light_count = lighting.LightCount();
       for (int i = 0; i < light_count; ++i) {
         const LightSample<T> light = lighting.Sample(i, surface.position);
-        const Vec3<T> scattered = s.Direct(light.direction, lighting) + s.Transmitted(light.direction, lighting);
+        Vec3<T> scattered = s.Direct(light.direction, lighting);
+        if (s.closure.Has(kTransmission)) scattered += s.Transmitted(light.direction, lighting);
         radiance += scattered * light.irradiance;
       }
       ShadedThrough<T> out{};
       out.own = {radiance, s.coverage};
-      out.tint = s.Tint();
-      SetPaths(s.closure, s.in, out);
+      if (s.closure.Has(kTransmission)) {
+        out.tint = s.Tint();
+        SetPaths(s.closure, s.in, out);
+      }
       return out;
     });
   }

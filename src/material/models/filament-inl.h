@@ -76,7 +76,6 @@ struct Filament : OwnModel<Filament> {
     return s;
   }
 
-  // For materials that light passes through, or whose blending is more than alpha.
   template <class T, class Material, class Lighting>
   static FACET_INLINE ShadedThrough<T> Through(const Surface<T>& surface, const Material& material,
                                                const Lighting& lighting) {
@@ -89,7 +88,7 @@ struct Filament : OwnModel<Filament> {
         out.tint = r.tint;
         for (int c = 0; c < 3; ++c) out.path[c] = r.path[c];
         out.spread = r.spread;
-      } else {
+      } else if (IsSeenThrough(*s.block)) {
         filament::BlendWithBehind(s, out.own, out.tint);
       }
       return out;

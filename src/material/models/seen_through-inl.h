@@ -45,6 +45,7 @@ FACET_INLINE ShadedThrough<T> ShadeThrough(const MaterialInputs<T>& in, const Su
   const Closure<T> closure(in, surface.view, lighting);
   ShadedThrough<T> out{};
   out.own = {ShadeClosure(closure, in, surface.position, lighting), in.alpha_coverage};
+  if (!closure.Has(kTransmission)) return out;
   out.tint = closure.transmission.color;
   SetPaths(closure, in, out);
   return out;
