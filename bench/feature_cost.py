@@ -67,6 +67,10 @@ WITHOUT = {
     "iridescence": never("kIridescence"),
     "anisotropy": never("kAnisotropy"),
     "material extensions": never("kLayerFeatures"),
+    "models of other engines": [
+        ("src/shade/shade_fragments.cc", r"    FACET_OWN_MODELS\(FACET_MODEL_CASE\)\n", "    default: break;\n"),
+        ("src/plan/frame_material.h", r"parameters != nullptr \? ModelOf\(\*parameters\)", "false ? model"),
+        ("src/plan/frame_plan.cc", r"\b[fm]\.parameters != nullptr", "false")],
 }
 
 

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "facet/image.h"
@@ -23,12 +24,20 @@ struct ParameterDescription {
   bool textured = false;             // whether a texture may scale it
 };
 
+// Named values, which material files start from.
+struct PresetDescription {
+  std::string name;
+  // Those that are not the defaults, by the parameter's name: as ParameterDescription::initial.
+  std::vector<std::pair<std::string, std::vector<float>>> stated;
+};
+
 struct ModelDescription {
   ShadingModel model;
   std::string name;     // in material files
   std::string summary;  // a sentence
   std::string source;   // where its formulas come from, with what its licence asks to be said
   std::vector<ParameterDescription> parameters;
+  std::vector<PresetDescription> presets;
 };
 
 // All models with parameters of their own.

@@ -15,6 +15,7 @@ namespace facet {
 struct ExplainedMaterial {
   std::string name;  // empty: none, or glTF's default material
   int index = -1;    // into Scene::materials; -1: glTF's default
+  std::string model;  // its shading model, as `facet info` calls it
   bool lit = false;
   std::vector<std::string> features;  // words of --without for what shading it needs, and "double-sided"
   std::uint64_t drawables = 0;

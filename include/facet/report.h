@@ -90,6 +90,7 @@ struct ErrorReport {
     double rms_error = 0.0;  // the reference's estimate of its own remaining error
     double relative_error = 0.0;
     std::vector<std::string> notes;
+    std::vector<std::byte> image_png;  // encoded as the points' images; empty if only parts of it were computed
   } reference;
   std::vector<std::string> warnings;         // of loading and rendering; not stored
   std::vector<std::filesystem::path> files;  // all files of the scene; not stored

@@ -63,6 +63,13 @@ std::vector<ModelDescription> DescribeModels() {
       parameter.meaning = row.meaning;
       parameter.textured = kHasTexture<Value>;
     });
+    if (info.model != ShadingModel::Enterprise) continue;
+    for (const std::string_view name : kEnterprisePresets) {
+      PresetDescription& preset = model.presets.emplace_back(PresetDescription{std::string(name), {}});
+      ForEachStatedParameter(EnterprisePreset(name), [&](const auto& row, const auto& value) {
+        preset.stated.emplace_back(row.name, Numbers(value));
+      });
+    }
   }
   return models;
 }

@@ -25,13 +25,29 @@ std::string RangeOf(const ParameterDescription& p) {
   return range;
 }
 
-std::string DefaultOf(const ParameterDescription& p) {
-  if (p.type == "choice") return p.choices.at(static_cast<std::size_t>(p.initial[0]));
-  if (p.type == "true or false") return p.initial[0] != 0.0f ? "true" : "false";
-  std::vector<std::string> numbers;
-  for (const float number : p.initial) numbers.push_back(ShortNumber(double{number}));
-  const bool all_same = std::ranges::all_of(numbers, [&](const std::string& n) { return n == numbers[0]; });
-  return all_same && p.type == "colour" ? numbers[0] : Joined(numbers, " ");
+// A value in words. `numbers`: as ParameterDescription::initial.
+std::string ValueText(const ParameterDescription& p, const std::vector<float>& numbers) {
+  if (p.type == "choice") return p.choices.at(static_cast<std::size_t>(numbers[0]));
+  if (p.type == "true or false") return numbers[0] != 0.0f ? "true" : "false";
+  std::vector<std::string> words;
+  for (const float number : numbers) words.push_back(ShortNumber(double{number}));
+  const bool all_same = std::ranges::all_of(words, [&](const std::string& n) { return n == words[0]; });
+  return all_same && p.type == "colour" ? words[0] : Joined(words, " ");
+}
+
+// The same as in a material file. Infinity, which JSON does not have, is null.
+Json ValueJson(const ParameterDescription& p, const std::vector<float>& numbers) {
+  if (p.type == "choice") return ValueText(p, numbers);
+  if (p.type == "true or false") return numbers[0] != 0.0f;
+  const auto number = [](float value) { return std::isfinite(value) ? Json(value) : Json(nullptr); };
+  if (numbers.size() == 1) return number(numbers[0]);
+  Json list = Json::array();
+  for (const float value : numbers) list.push_back(number(value));
+  return list;
+}
+
+const ParameterDescription& ParameterNamed(const ModelDescription& model, const std::string& name) {
+  return *std::ranges::find(model.parameters, name, &ParameterDescription::name);
 }
 
 std::string TextOf(const ModelDescription& model) {
@@ -40,9 +56,17 @@ std::string TextOf(const ModelDescription& model) {
     std::vector<std::string> facts = {p.type};
     if (const std::string range = RangeOf(p); !range.empty()) facts.push_back(range);
     if (!p.unit.empty()) facts.push_back(p.unit);
-    facts.push_back("default " + DefaultOf(p));
+    facts.push_back("default " + ValueText(p, p.initial));
     if (p.textured) facts.emplace_back("textured");
     text += "  " + p.name + "\n      " + p.meaning + "\n      " + Joined(facts, "; ") + "\n";
+  }
+  if (!model.presets.empty()) text += "\nPresets:\n";
+  for (const PresetDescription& preset : model.presets) {
+    std::vector<std::string> facts;
+    for (const auto& [name, numbers] : preset.stated) {
+      facts.push_back(name + " " + ValueText(ParameterNamed(model, name), numbers));
+    }
+    text += "  " + preset.name + "\n      " + (facts.empty() ? "the defaults" : Joined(facts, "; ")) + "\n";
   }
   return text;
 }
@@ -55,10 +79,30 @@ Json JsonOf(const ModelDescription& model) {
     if (p.type == "choice") json["choices"] = p.choices;
     const auto number = [](float value) { return std::isfinite(value) ? Json(value) : Json(nullptr); };
     json["low"] = number(p.low), json["high"] = number(p.high);
-    for (const float value : p.initial) json["default"].push_back(number(value));
+    json["default"] = ValueJson(p, p.initial);
     parameters.push_back(std::move(json));
   }
-  return {{"name", model.name}, {"summary", model.summary}, {"source", model.source}, {"parameters", parameters}};
+  Json presets = Json::object();
+  for (const PresetDescription& preset : model.presets) {
+    Json& stated = presets[preset.name] = Json::object();
+    for (const auto& [name, numbers] : preset.stated) stated[name] = ValueJson(ParameterNamed(model, name), numbers);
+  }
+  return {{"name", model.name},
+          {"summary", model.summary},
+          {"source", model.source},
+          {"parameters", parameters},
+          {"presets", presets}};
+}
+
+Json JsonOf(const ModelComparison& comparison) {
+  Json rows = Json::array();
+  for (std::size_t r = 0; r < comparison.materials.size(); ++r) {
+    Json row = {{"material", comparison.materials[r]}, {"flip", Json::object()}};
+    for (std::size_t c = 1; c < comparison.models.size(); ++c)
+      row["flip"][comparison.models[c]] = comparison.flip[r][c];
+    rows.push_back(std::move(row));
+  }
+  return {{"against", comparison.models[0]}, {"materials", rows}};
 }
 
 std::string TableOf(const ModelComparison& comparison) {
@@ -100,7 +144,7 @@ void RunModels(const ModelsOptions& options) {
   } else if (options.compare) {
     const ModelComparison comparison = CompareModels();
     WriteImage(*options.compare, comparison.picture);
-    PrintOutput(TableOf(comparison));
+    PrintOutput(options.json ? JsonOf(comparison).dump(2) + "\n" : TableOf(comparison));
   } else if (options.json) {
     Json json = Json::array();
     for (const ModelDescription& model : chosen) json.push_back(JsonOf(model));

@@ -39,6 +39,7 @@ ExplainedMaterial Describe(const Scene& scene, const PlannedMaterial& planned) {
   ExplainedMaterial material;
   material.index = planned.material;
   if (planned.material >= 0) material.name = scene.materials[std::size_t(planned.material)].name;
+  material.model = InfoOf(planned.frame.ModelOfSlots()).word;
   material.lit = planned.frame.Has(kLit);
   const FeatureSet used = UsedFeatures(planned.frame);
   for (const FeatureWord& known : kFeatureWords) {

@@ -80,6 +80,7 @@ std::string MaterialsText(const Explanation& e) {
   for (const ExplainedMaterial& m : e.materials) {
     std::vector<std::string> words = m.features;
     words.insert(words.begin(), m.lit ? "lit" : "unlit");
+    if (m.model != "metallic-roughness" && m.model != "unlit") words.insert(words.begin(), m.model);
     rows.push_back({NameOf(m), Grouped(m.drawables), Grouped(m.triangles), Joined(words)});
   }
   return Table(rows, "lrrl");
@@ -203,6 +204,7 @@ Json MaterialsJson(const Explanation& e) {
   for (const ExplainedMaterial& m : e.materials) {
     list.push_back({{"name", m.name},
                     {"index", m.index},
+                    {"model", m.model},
                     {"lit", m.lit},
                     {"features", m.features},
                     {"drawables", m.drawables},

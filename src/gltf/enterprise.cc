@@ -67,6 +67,20 @@ void ReadAs(const Json& group, const Place& place, const char* name, Value Enter
 
 }  // namespace
 
+std::map<std::string_view, std::set<std::string_view>> EnterpriseProperties() {
+  std::map<std::string_view, std::set<std::string_view>> all = {
+      {"3DS_materials_anisotropy",
+       {"ansiotropyFactor", "anisotropyFactor", "anisotropyRotationFactor", "anisotropyTexture"}},
+      {"3DS_materials_emission", {"emissionValue", "emissionMode", "emissionEnergyNormalization"}},
+      {"3DS_materials_sss", {"subsurfaceColor", "subsurfaceAsymmetry"}},
+      {"3DS_materials_translucency", {"translucencyFactor", "translucencyTexture"}},
+      {"3DS_materials_volume", {"subsurfaceColor", "subsurfaceAsymmetry"}},
+  };
+  ForEachParameterOf(EnterpriseParameters(),
+                     [&](const auto& row, const auto&) { all["3DS_materials_enterprise_pbr"].insert(row.name); });
+  return all;
+}
+
 bool IsEnterpriseExtension(std::string_view name) {
   return std::ranges::find(kEnterpriseExtensions, name) != std::end(kEnterpriseExtensions);
 }

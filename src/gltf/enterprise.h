@@ -2,6 +2,8 @@
 #pragma once
 
 #include <functional>
+#include <map>
+#include <set>
 #include <string_view>
 
 #include "facet/scene.h"
@@ -14,6 +16,9 @@ namespace facet::gltf {
 inline constexpr std::string_view kEnterpriseExtensions[] = {"3DS_materials_anisotropy",     "3DS_materials_emission",
                                                              "3DS_materials_enterprise_pbr", "3DS_materials_sss",
                                                              "3DS_materials_translucency",   "3DS_materials_volume"};
+
+// The properties of each.
+std::map<std::string_view, std::set<std::string_view>> EnterpriseProperties();
 
 bool IsEnterpriseExtension(std::string_view name);
 

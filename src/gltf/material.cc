@@ -28,6 +28,7 @@ const std::map<std::string_view, std::set<std::string_view>>& ExtensionPropertie
       const std::size_t dot = group.find('.');  // an object in the extension has it
       all[group.substr(0, dot)].insert(dot == group.npos ? parameter.gltf_name : group.substr(dot + 1));
     });
+    all.merge(EnterpriseProperties());
     return all;
   }();
   return properties;

@@ -127,7 +127,7 @@ class TreeReader {
     return shown;
   }
 
-  // A node with several parents is kept as the child of the visible one.
+  // Of several parents, which glTF does not allow, a node has the last visible one, as in three.js and Babylon.js.
   void FindParents(const std::vector<bool>& shown) {
     for (const bool of_shown : {true, false}) {
       for (std::size_t i = 0; i < scene_.nodes.size(); ++i) {
@@ -138,9 +138,15 @@ class TreeReader {
             parent = int(i);
             return false;
           }
-          SetProblem(i, "is a child of both nodes[" + std::to_string(parent) + "] and nodes[" + std::to_string(i) + "]",
-                     std::size_t(child));
-          return true;
+          const std::string what =
+              "is a child of both nodes[" + std::to_string(parent) + "] and nodes[" + std::to_string(i) + "]";
+          if (!of_shown || parent == int(i)) {
+            SetProblem(i, what, std::size_t(child));
+            return true;
+          }
+          Place(nodes_place_, std::size_t(child)).Warn(what + "; it is drawn below the latter");
+          std::erase(scene_.nodes[std::size_t(std::exchange(parent, int(i)))].children, child);
+          return false;
         });
       }
     }

@@ -201,8 +201,7 @@ FromGltf ConvertFromGltf(const Material& material, ShadingModel model) {
 }
 
 std::string SentenceOf(const std::vector<std::string>& lost, ShadingModel model) {
-  return std::string("the model \"") + kModels[static_cast<std::size_t>(model)].word + "\" does not have " +
-         Joined(lost);
+  return std::string("the model \"") + InfoOf(model).word + "\" does not have " + Joined(lost);
 }
 
 void AddDefaultMaterial(const Scene& scene, std::vector<Material>& materials, int& index) {

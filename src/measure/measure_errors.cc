@@ -139,9 +139,17 @@ class Sweep {
 
   void TakeReference() {
     const ReferenceFilm& film = *reference_film_;
-    flip_ = std::make_unique<FlipJudge>(film, EncodeFilm(ToFilm(film), request_.display));
+    const Film exact = ToFilm(film);
+    flip_ = std::make_unique<FlipJudge>(film, EncodeFilm(exact, request_.display));
     ErrorReport::Reference& out = out_.reference;
-    out = {out.samples, film.batches, film.known_pixels, film.seconds, film.rms_error, film.relative_error, film.notes};
+    out = {out.samples,
+           film.batches,
+           film.known_pixels,
+           film.seconds,
+           film.rms_error,
+           film.relative_error,
+           film.notes,
+           film.whole ? EncodePng(EncodeFilm(Reduced(exact, kThumbnail), request_.display)) : std::vector<std::byte>()};
   }
 
   // Renders with the cheapest and with the most exact values of all approximations, which are most likely to keep a

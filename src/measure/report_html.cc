@@ -349,7 +349,7 @@ std::string ImageTag(const std::string& alt, const std::vector<std::byte>& png) 
   return "<img alt=\"" + Escaped(alt) + "\" src=\"data:image/png;base64," + Base64(png) + "\"/>";
 }
 
-std::string Gallery(const std::vector<Ranked>& ranked) {
+std::string Gallery(const ErrorReport& report, const std::vector<Ranked>& ranked) {
   std::string cards;
   for (const Ranked& r : ranked) {
     if (!HasImages(*r.point)) continue;
@@ -361,6 +361,10 @@ std::string Gallery(const std::vector<Ranked>& ranked) {
              ErrorWords(r.point->error.flip) + ", " + TimeWords(r.point->seconds) + "</figcaption></figure>\n";
   }
   if (cards.empty()) return {};
+  if (!report.reference.image_png.empty()) {
+    cards = "<figure class=\"card\"><div>" + ImageTag("picture by the reference", report.reference.image_png) +
+            "</div><figcaption>the reference</figcaption></figure>\n" + cards;
+  }
   return "<h2>Pictures</h2>\n<p>Each with its error map, FLIP against the reference: the brighter, the more people see "
          "it."
          "</p>\n<div class=\"cards\">\n" +
@@ -382,7 +386,7 @@ std::string ToHtml(const ErrorReport& report) {
          MemoryDiagram(report, ranked) +
          TimeDiagram(report, ranked, kFlip, "What people see of the error, with a front of its own.") +
          TimeDiagram(report, ranked, kLargest, "The worst pixel: often one glint.") + "</div>\n" + CostsTable(report) +
-         Rounding(report) + PointsTable(report, ranked) + Gallery(ranked) + "</body>\n</html>\n";
+         Rounding(report) + PointsTable(report, ranked) + Gallery(report, ranked) + "</body>\n</html>\n";
 }
 
 }  // namespace facet

@@ -21,6 +21,11 @@ TEST(FacetModels, ListsModelsAndTheirParameters) {
   const auto json = nlohmann::json::parse(RunFacet({"models", "lecture", "--json"}).out);
   ASSERT_EQ(json.size(), 1u);
   EXPECT_EQ(json[0].at("parameters")[0].at("name"), "albedo");
+  EXPECT_EQ(json[0].at("parameters")[0].at("default"), (nlohmann::json{1.0, 1.0, 1.0, 1.0}));
+  const auto enterprise = nlohmann::json::parse(RunFacet({"models", "enterprise", "--json"}).out);
+  EXPECT_EQ(enterprise[0].at("presets").at("glass").at("transparency"), 1.0);
+  EXPECT_EQ(enterprise[0].at("presets").at("glass").at("thinWalled"), false) << "as in a material file";
+  EXPECT_NE(RunFacet({"models", "enterprise"}).out.find("transparency 1; "), std::string::npos);
   EXPECT_EQ(nlohmann::json::parse(RunFacet({"models", "--schema"}).out).at("title"), "facet material file");
 }
 

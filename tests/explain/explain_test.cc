@@ -229,7 +229,7 @@ TEST(Explain, TextAndJsonHaveTheSameNumbers) {
   e.width = 640, e.height = 480, e.samples = 4;
   e.frames = 7, e.steady_seconds = 0.010;
   e.first.environment_seconds = 0.03125, e.first.table_seconds = 0.0625;
-  e.materials.push_back({"a\x1b[2Jb\xff", 0, true, {"occlusion"}, 3, 1234567});
+  e.materials.push_back({"a\x1b[2Jb\xff", 0, "metallic-roughness", true, {"occlusion"}, 3, 1234567});
   e.first.disabled = {"skins: nothing drawn has one"};
   e.costs.push_back({"occlusion", "--without occlusion", 9, 0.00125, -0.0005, 0.002, 0.25, -2048});
   const std::string text = ToText(e, "x.glb");

@@ -45,6 +45,16 @@ TEST(EnterpriseGltf, OtherMaterialsStayGltfs) {
   }
 }
 
+TEST(EnterpriseGltf, MisspeltPropertiesAreSaid) {
+  const LoadedScene loaded = LoadMaterial(R"("extensions":{"3DS_materials_translucency":{"translucency":0.5}})");
+  const auto& warnings = loaded.report.warnings;
+  EXPECT_TRUE(std::ranges::any_of(warnings, [](const std::string& warning) {
+    return warning.find(
+               "3DS_materials_translucency.translucency: ignored: 3DS_materials_translucency has no such "
+               "property, but translucencyFactor, translucencyTexture") != std::string::npos;
+  })) << ::testing::PrintToString(warnings);
+}
+
 TEST(EnterpriseGltf, CoreAndKhronosParametersAreMapped) {
   const LoadedScene loaded = LoadMaterial(
       R"("name":"m","doubleSided":true,"alphaMode":"BLEND","emissiveFactor":[0.5,0.25,0],

@@ -69,6 +69,7 @@ TEST(MeasuredErrors, SayWhatTheyMeasured) {
   EXPECT_EQ(report.settings.at("size"), "24x24");
   EXPECT_GT(report.reference.batches, 2);
   EXPECT_EQ(report.reference.pixels, 24u * 24u);
+  EXPECT_FALSE(report.reference.image_png.empty());
   ASSERT_GE(report.points.size(), 10u);
   EXPECT_TRUE(report.points[0].changed.empty());
   std::set<SettingsText> settings;

@@ -201,16 +201,18 @@ TEST(ErrorReportPage, IsWellFormedAndNeedsNothingElse) {
   ErrorReport report = SampleErrorReport();
   report.points[0].image_png = Bytes("one");
   report.points[3].error_map_png = Bytes("two");
+  report.reference.image_png = Bytes("three");
   const std::string html = ToHtml(report);
   for (const char* outside : {"http", "//", "<link", "@import", "<script", "url("})
     EXPECT_FALSE(Contains(html, outside)) << outside;
   EXPECT_TRUE(Contains(html, "data:image/png;base64,b25l\""));
   EXPECT_TRUE(Contains(html, "data:image/png;base64,dHdv\""));
+  EXPECT_TRUE(Contains(html, "alt=\"picture by the reference\" src=\"data:image/png;base64,dGhyZWU=\""));
   EXPECT_TRUE(Contains(html, "prefers-color-scheme: dark"));
   // Four diagrams of 13 dots; every link has its target.
   ExpectXml(html,
             "assert len(list(t.iter(\"svg\"))) == 4; assert len(list(t.iter(\"circle\"))) == 52; "
-            "assert len(list(t.iter(\"img\"))) == 2; ids = [x.get(\"id\") for x in t.iter() if x.get(\"id\")]; "
+            "assert len(list(t.iter(\"img\"))) == 3; ids = [x.get(\"id\") for x in t.iter() if x.get(\"id\")]; "
             "assert len(ids) == len(set(ids)); "
             "assert all(a.get(\"href\")[1:] in ids for a in t.iter(\"a\"))");
 }

@@ -52,6 +52,7 @@ std::vector<Case> BrdfCases();
 std::vector<Case> ClosureCases();
 std::vector<Case> LayerCases();
 std::vector<Case> GlassCases();
+std::vector<Case> ModelCases();
 std::vector<Case> PlacementCases();
 std::vector<Case> TriangleCases();
 std::vector<Case> TransformCases();
