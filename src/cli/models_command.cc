@@ -79,6 +79,7 @@ Json JsonOf(const ModelDescription& model) {
     if (p.type == "choice") json["choices"] = p.choices;
     const auto number = [](float value) { return std::isfinite(value) ? Json(value) : Json(nullptr); };
     json["low"] = number(p.low), json["high"] = number(p.high);
+    if (p.other) json["or"] = number(*p.other);
     json["default"] = ValueJson(p, p.initial);
     parameters.push_back(std::move(json));
   }

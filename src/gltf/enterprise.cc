@@ -93,7 +93,11 @@ bool IsEnterprise(const Json& material, const Place& place) {
 
 void ReadEnterprise(const Json& object, const Place& place, const ReadTextureInfo& read_texture, Material& material) {
   using P = EnterpriseParameters;
-  const FromGltf core = ConvertFromGltf(material, ShadingModel::Enterprise);
+  Material stated = material;
+  stated.occlusion_texture = {};  // for other viewers
+  if (stated.model == ShadingModel::Unlit) stated.model = ShadingModel::MetallicRoughness;
+  if (ExtensionOf(object, "3DS_materials_anisotropy", place) != nullptr) stated.anisotropy_strength = 0.0f;
+  const FromGltf core = ConvertFromGltf(stated, ShadingModel::Enterprise);
   if (!core.lost.empty()) place.Warn(SentenceOf(core.lost, ShadingModel::Enterprise));
   P p = std::get<P>(core.parameters);
   // glTF's sheen is smooth by default, DSPBR's is not.

@@ -17,9 +17,13 @@ namespace {
 constexpr float kPi = 3.14159265358979324f;
 
 Textured<float> Number(float value, const TextureRef& texture, int channel) {
-  return {value, texture, static_cast<std::int8_t>(channel)};
+  return {value, texture, static_cast<std::int8_t>(texture ? channel : 0)};
 }
 TangentSpaceNormal Normal(const TextureRef& texture, float scale) { return {.texture = texture, .scale = scale}; }
+
+constexpr const char* kLeastFilmIsLost = "the minimum of its film's thickness";
+// Of models that light every surface.
+constexpr const char* kUnlitIsLost = "unlit surfaces (they emit their colour)";
 
 // The reflectance of a dielectric at normal incidence. glTF's index of 0 means a Fresnel term of 1.
 float ReflectanceOf(float ior) {
@@ -58,9 +62,10 @@ LectureParameters ToLecture(const Material& m, std::vector<std::string>& lost) {
   LectureParameters p;
   p.albedo = {m.base_color_factor, m.base_color_texture};
   if (m.model == ShadingModel::Unlit) {
-    p.albedo.value = glm::vec4(0.0f, 0.0f, 0.0f, m.base_color_factor.a);
+    p.diffuse = LectureDiffuse::None;
     p.specular = LectureSpecular::None;
     p.emission = {glm::vec3(m.base_color_factor), m.base_color_texture};
+    lost.emplace_back(kUnlitIsLost);
     return p;
   }
   p.metalness = Number(m.metallic_factor, m.metallic_roughness_texture, 2);
@@ -117,7 +122,7 @@ FilamentParameters ToFilament(const Material& m, std::vector<std::string>& lost)
   p.iridescence_ior = m.iridescence_ior;
   p.iridescence_thickness = Number(m.iridescence_thickness_maximum, m.iridescence_thickness_texture, 1);
   if (m.iridescence_factor != 0.0f && m.iridescence_thickness_texture && m.iridescence_thickness_minimum != 0.0f) {
-    lost.emplace_back("the minimum of its film's thickness");
+    lost.emplace_back(kLeastFilmIsLost);
   }
   NameLost(m, kDiffuseTransmission, lost);
   if (m.transmission_factor == 0.0f) return p;
@@ -139,12 +144,13 @@ FilamentParameters ToFilament(const Material& m, std::vector<std::string>& lost)
 EnterpriseParameters ToEnterprise(const Material& m, std::vector<std::string>& lost) {
   EnterpriseParameters p;
   p.albedo = {glm::vec3(m.base_color_factor), m.base_color_texture};
-  if (m.alpha_mode != AlphaMode::Opaque) p.cutout_opacity = Number(m.base_color_factor.a, m.base_color_texture, 3);
+  p.cutout_opacity = Number(m.base_color_factor.a, m.base_color_texture, 3);
   if (m.model == ShadingModel::Unlit) {
     p.albedo.value = glm::vec3(0.0f);
     p.specular.value = 0.0f;
     p.emission_color = {glm::vec3(m.base_color_factor), m.base_color_texture};
     p.emission_value = kPi;
+    lost.emplace_back(kUnlitIsLost);
     return p;
   }
   p.metallic = Number(m.metallic_factor, m.metallic_roughness_texture, 2);
@@ -171,8 +177,10 @@ EnterpriseParameters ToEnterprise(const Material& m, std::vector<std::string>& l
   p.thin_film_ior = std::clamp(m.iridescence_ior, 1.0f, 2.5f);
   const float micrometres = m.iridescence_thickness_maximum / 1000.0f;
   p.thin_film_thickness = Number(std::min(micrometres, 1.0f), m.iridescence_thickness_texture, 1);
-  if (m.iridescence_factor != 0.0f && (micrometres > 1.0f || m.iridescence_thickness_texture)) {
-    lost.emplace_back("films but from 0 to 1 micrometre");
+  if (m.iridescence_factor != 0.0f) {
+    if (p.thin_film_ior != m.iridescence_ior) lost.emplace_back("films of an index above 2.5");
+    if (micrometres > 1.0f) lost.emplace_back("films of more than 1 micrometre");
+    if (m.iridescence_thickness_texture && m.iridescence_thickness_minimum != 0.0f) lost.emplace_back(kLeastFilmIsLost);
   }
   constexpr float kReflectsAll = 1e9f;  // an index of 0 means F0 = 1
   p.ior = m.ior == 0.0f ? kReflectsAll : std::max(m.ior, 1.0f);
@@ -229,6 +237,7 @@ std::vector<std::string> ConvertMaterials(Scene& scene, ShadingModel model) {
   std::vector<std::string> sentences;
   for (Material& material : scene.materials) {
     if (material.parameters != nullptr) continue;
+    if (material.model == ShadingModel::Unlit && model != ShadingModel::Filament) continue;  // exact as it is
     FromGltf converted = ConvertFromGltf(material, model);
     if (!converted.lost.empty()) {
       sentences.push_back("material " + Quoted(material.name) + ": " + SentenceOf(converted.lost, model));

@@ -141,16 +141,24 @@ class MaterialFile {
   }
 
  private:
+  struct Change {
+    std::string place;  // of the entry
+    std::string loss;
+  };
+
   // Nothing in the scene changes before all of the file has been read.
   void Commit() {
     UseDefaultMaterial(scene_, default_material_);
     scene_.materials = std::move(materials_);
     scene_.images = std::move(images_);
     scene_.textures = std::move(textures_);
+    for (const auto& [index, change] : changes_) {
+      if (!change.loss.empty()) report_.warnings.push_back(change.loss);
+    }
     for (const Mesh& mesh : scene_.meshes) {
       for (const Primitive& primitive : mesh.primitives) {
-        const auto changed = place_of_change_.find(std::size_t(primitive.material));
-        if (changed != place_of_change_.end()) WarnOfMissingSets(mesh, primitive, changed->second);
+        const auto change = changes_.find(std::size_t(primitive.material));
+        if (change != changes_.end()) WarnOfMissingSets(mesh, primitive, change->second.place);
       }
     }
   }
@@ -184,8 +192,8 @@ class MaterialFile {
     for (const std::size_t index : Matching(entry["match"])) {
       static const Material plain;
       const Material& of_scene = index < scene_.materials.size() ? scene_.materials[index] : plain;
-      if (inherits) changes = ReadChanges(entry, model, Inherited(entry, of_scene, model));
-      place_of_change_[index] = entry.Place();
+      Change& change = changes_[index] = {entry.Place(), {}};  // of several entries the last counts
+      if (inherits) changes = ReadChanges(entry, model, Inherited(entry, of_scene, model, change.loss));
       Material& material = materials_[index] = changes;
       material.name = of_scene.name;
       if (!states_alpha_mode_) material.alpha_mode = of_scene.alpha_mode;
@@ -204,16 +212,17 @@ class MaterialFile {
     return changes;
   }
 
-  // What a material of the scene states, in the model's parameters.
-  ModelParameters Inherited(const JsonValue& entry, const Material& of_scene, ShadingModel model) {
-    if (of_scene.model == model) return *of_scene.parameters;
+  // What a material of the scene states, in the model's parameters. `loss`: a sentence about what is not inherited.
+  static ModelParameters Inherited(const JsonValue& entry, const Material& of_scene, ShadingModel model,
+                                   std::string& loss) {
+    if (of_scene.model == model && of_scene.parameters != nullptr) return *of_scene.parameters;
     const std::string where = entry.Place() + ": material " + Quoted(of_scene.name);
     if (of_scene.parameters != nullptr) {
-      report_.warnings.push_back(where + " is of another model, so nothing is inherited");
+      loss = where + " is of another model, so nothing is inherited";
       return DefaultsOf(model);
     }
     FromGltf converted = ConvertFromGltf(of_scene, model);
-    if (!converted.lost.empty()) report_.warnings.push_back(where + ": " + SentenceOf(converted.lost, model));
+    if (!converted.lost.empty()) loss = where + ": " + SentenceOf(converted.lost, model);
     return std::move(converted.parameters);
   }
 
@@ -330,6 +339,9 @@ class MaterialFile {
 
   template <class Value>
   void ReadTexture(const JsonValue& texture, Value& value) {
+    value.texture = {};  // nothing of an inherited one stays
+    if constexpr (requires { value.scale; }) value.scale = 1.0f;
+    if constexpr (requires { value.channel; }) value.channel = 0;
     if (texture.json.is_string()) {
       value.texture.texture = TextureFor(texture, {});
       return;
@@ -415,7 +427,7 @@ class MaterialFile {
   std::vector<SceneImage> images_;
   std::vector<Texture> textures_;
   std::map<std::string, int> image_of_path_, texture_of_place_;
-  std::map<std::size_t, std::string> place_of_change_;  // of the entry, by material
+  std::map<std::size_t, Change> changes_;  // by material
   int default_material_ = -1;       // of primitives without one; -1: they are left without
   bool states_alpha_mode_ = false, states_blending_ = false;  // of the entry that is being read
 };

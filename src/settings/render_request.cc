@@ -325,16 +325,18 @@ std::filesystem::path PathOf(const std::filesystem::path& name, const NamedBy& n
 
 void ApplyMaterials(const RenderRequest& request, LoadedScene& loaded, const LoadOptions& options,
                     const NamedBy& named_by) {
-  if (request.model) {
-    for (const std::string& sentence : ConvertMaterials(loaded.scene, *request.model)) {
-      loaded.report.warnings.push_back("--model: " + sentence);
-    }
+  if (request.materials) {
+    const LoadReport read =
+        ApplyMaterialFile(loaded.scene, PathOf(*request.materials, named_by, "--materials"), options);
+    loaded.report.file_bytes += read.file_bytes;
+    loaded.report.warnings.insert(loaded.report.warnings.end(), read.warnings.begin(), read.warnings.end());
+    loaded.report.files.insert(loaded.report.files.end(), read.files.begin(), read.files.end());
   }
-  if (!request.materials) return;
-  const LoadReport read = ApplyMaterialFile(loaded.scene, PathOf(*request.materials, named_by, "--materials"), options);
-  loaded.report.file_bytes += read.file_bytes;
-  loaded.report.warnings.insert(loaded.report.warnings.end(), read.warnings.begin(), read.warnings.end());
-  loaded.report.files.insert(loaded.report.files.end(), read.files.begin(), read.files.end());
+  // What the file says of a material counts, and inherits from the scene.
+  if (!request.model) return;
+  for (const std::string& sentence : ConvertMaterials(loaded.scene, *request.model)) {
+    loaded.report.warnings.push_back("--model: " + sentence);
+  }
 }
 
 RenderSettings ResolveRequest(const RenderRequest& request, const Scene& scene, const NamedBy& named_by,

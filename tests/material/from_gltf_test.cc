@@ -42,7 +42,7 @@ TEST(FromGltf, KeepsCoreMaterialsInEveryModel) {
   EXPECT_EQ(filament.refraction_mode, FilamentParameters::RefractionMode::None);
   const auto enterprise = As<EnterpriseParameters>(m, ShadingModel::Enterprise);
   EXPECT_EQ(enterprise.albedo.value, glm::vec3(0.5f, 0.25f, 0.125f));
-  EXPECT_EQ(enterprise.cutout_opacity.value, 1.0f) << "opaque materials ignore alpha";
+  EXPECT_EQ(enterprise.cutout_opacity.value, 0.75f) << "which opaque materials ignore";
   EXPECT_FLOAT_EQ(enterprise.emission_value, 4.0f * 3.14159265f) << "of a radiance of 4";
 }
 
@@ -86,10 +86,21 @@ TEST(FromGltf, KeepsUnlitColours) {
   Material m = Painted();
   m.model = ShadingModel::Unlit;
   EXPECT_EQ(As<FilamentParameters>(m, ShadingModel::Filament).shading_model, FilamentParameters::Shading::Unlit);
-  const auto lecture = As<LectureParameters>(m, ShadingModel::Lecture);
-  EXPECT_EQ(lecture.albedo.value, glm::vec4(0.0f, 0.0f, 0.0f, 0.75f));
+  const auto lecture = As<LectureParameters>(m, ShadingModel::Lecture, 1);
+  EXPECT_EQ(lecture.albedo.value, m.base_color_factor) << "what points and lines show";
+  EXPECT_EQ(lecture.diffuse, LectureDiffuse::None);
   EXPECT_EQ(lecture.specular, LectureSpecular::None);
   EXPECT_EQ(lecture.emission.value, glm::vec3(0.5f, 0.25f, 0.125f));
+}
+
+TEST(FromGltf, LeavesUnlitMaterialsToModelsThatHaveThem) {
+  Scene scene;
+  scene.materials = {Painted()};
+  scene.materials[0].model = ShadingModel::Unlit;
+  EXPECT_TRUE(ConvertMaterials(scene, ShadingModel::Enterprise).empty());
+  EXPECT_EQ(scene.materials[0].model, ShadingModel::Unlit);
+  ConvertMaterials(scene, ShadingModel::Filament);
+  EXPECT_EQ(scene.materials[0].model, ShadingModel::Filament);
 }
 
 TEST(FromGltf, ConvertsScenes) {

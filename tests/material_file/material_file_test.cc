@@ -127,18 +127,26 @@ TEST_F(MaterialFileTest, InheritanceStartsFromWhatTheSceneStates) {
   red.base_color_factor = {0.8f, 0.1f, 0.05f, 1.0f};
   red.roughness_factor = 0.25f;
   red.metallic_roughness_texture.texture = 0;
+  red.metallic_roughness_texture.tex_coord = 1;
   red.clearcoat_factor = 1.0f;
+  const Material red_before = red;
   const LoadReport report = Apply(R"({"materials": [
       {"match": "paint*", "model": "lecture", "inherit": true, "parameters": {"metalness": 0.5},
        "textures": {"metalness": null, "albedo": "a.png"}}]})");
   const auto& block = std::get<LectureParameters>(*scene_.materials[0].parameters);
   EXPECT_EQ(block.albedo.value, glm::vec4(1.0f)) << "a new texture takes the value's place";
   EXPECT_EQ(block.albedo.texture.texture, 1);
-  EXPECT_EQ(block.roughness, (Textured<float>{0.25f, red.metallic_roughness_texture, 1}));
+  EXPECT_EQ(block.roughness, (Textured<float>{0.25f, red_before.metallic_roughness_texture, 1}));
   EXPECT_EQ(block.metalness.value, 0.5f);
   EXPECT_FALSE(block.metalness.texture) << "null takes it away";
-  EXPECT_EQ(std::get<LectureParameters>(*scene_.materials[1].parameters).roughness.value, 1.0f) << "glTF's default";
   EXPECT_EQ(scene_.textures.size(), 2u) << "one entry's texture is added once";
+  scene_.materials[0] = red_before;
+  Apply(R"({"materials": [{"match": "paint red", "model": "lecture", "inherit": true,
+                           "textures": {"roughness": "a.png"}}]})");
+  const auto& replaced = std::get<LectureParameters>(*scene_.materials[0].parameters).roughness;
+  EXPECT_EQ(replaced.channel, 0) << "nothing of the inherited texture stays";
+  EXPECT_EQ(replaced.texture.tex_coord, 0);
+  EXPECT_EQ(std::get<LectureParameters>(*scene_.materials[1].parameters).roughness.value, 1.0f) << "glTF's default";
   ASSERT_EQ(report.warnings.size(), 1u);
   EXPECT_NE(
       report.warnings[0].find("look.json: /materials/0: material 'paint red': the model \"lecture\" does not have "
