@@ -32,11 +32,12 @@ if(FACET_SCALAR_ONLY)
 else()
   target_compile_definitions(facet_arithmetic INTERFACE ${FACET_HIGHWAY_DEFINITIONS})
 endif()
-# Kernels in which everything is inlined take a compiler ten times as long when it checks each access.
+# See facet/shader/inline.h.
 if(FACET_SANITIZE)
   target_compile_definitions(facet_arithmetic INTERFACE FACET_MAY_INLINE)
+else()
+  target_compile_definitions(facet_arithmetic INTERFACE $<$<CONFIG:Debug>:FACET_MAY_INLINE>)
 endif()
-target_compile_definitions(facet_arithmetic INTERFACE $<$<CONFIG:Debug>:FACET_MAY_INLINE>)
 target_include_directories(facet_arithmetic INTERFACE
   $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
 install(TARGETS facet_arithmetic EXPORT facetTargets)

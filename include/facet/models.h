@@ -18,7 +18,7 @@ struct ModelParameters : std::variant<LectureParameters, FilamentParameters, Ent
 
 // Gives the materials that have one of glTF's models another one, with the parameters that come nearest to what they
 // state; parts without a material get one. Materials of other models stay as they are. Returns a sentence for each
-// material of which something is lost. `model`: not one of glTF's. Unlit materials stay as they are if it has none.
+// combination of what is lost. `model`: not one of glTF's. Unlit materials stay as they are if it has none.
 std::vector<std::string> ConvertMaterials(Scene& scene, ShadingModel model);
 
 }  // namespace facet

@@ -138,13 +138,7 @@ Image ChartModel(ShadingModel model) {
       Material material;
       material.model = model;
       if (BaseColorOf(step.parameters).a < 1.0f || row.is_coverage) material.alpha_mode = AlphaMode::Blend;
-      std::visit(
-          [&](const auto& block) {
-            if constexpr (requires { AlphaModeOf(block); }) {
-              material.alpha_mode = AlphaModeOf(block).value_or(material.alpha_mode);
-            }
-          },
-          step.parameters);
+      material.alpha_mode = AlphaModeOf(step.parameters).value_or(material.alpha_mode);
       material.parameters = std::make_shared<const ModelParameters>(std::move(step.parameters));
       rows.back().cells.push_back({material, step.label});
     }

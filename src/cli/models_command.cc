@@ -25,6 +25,9 @@ std::string RangeOf(const ParameterDescription& p) {
   return range;
 }
 
+// Infinity, which JSON does not have, is null.
+Json NumberJson(float value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
 // A value in words. `numbers`: as ParameterDescription::initial.
 std::string ValueText(const ParameterDescription& p, const std::vector<float>& numbers) {
   if (p.type == "choice") return p.choices.at(static_cast<std::size_t>(numbers[0]));
@@ -35,14 +38,13 @@ std::string ValueText(const ParameterDescription& p, const std::vector<float>& n
   return all_same && p.type == "colour" ? words[0] : Joined(words, " ");
 }
 
-// The same as in a material file. Infinity, which JSON does not have, is null.
+// The same as in a material file.
 Json ValueJson(const ParameterDescription& p, const std::vector<float>& numbers) {
   if (p.type == "choice") return ValueText(p, numbers);
   if (p.type == "true or false") return numbers[0] != 0.0f;
-  const auto number = [](float value) { return std::isfinite(value) ? Json(value) : Json(nullptr); };
-  if (numbers.size() == 1) return number(numbers[0]);
+  if (numbers.size() == 1) return NumberJson(numbers[0]);
   Json list = Json::array();
-  for (const float value : numbers) list.push_back(number(value));
+  for (const float value : numbers) list.push_back(NumberJson(value));
   return list;
 }
 
@@ -77,9 +79,8 @@ Json JsonOf(const ModelDescription& model) {
     Json json = {
         {"name", p.name}, {"type", p.type}, {"meaning", p.meaning}, {"unit", p.unit}, {"textured", p.textured}};
     if (p.type == "choice") json["choices"] = p.choices;
-    const auto number = [](float value) { return std::isfinite(value) ? Json(value) : Json(nullptr); };
-    json["low"] = number(p.low), json["high"] = number(p.high);
-    if (p.other) json["or"] = number(*p.other);
+    json["low"] = NumberJson(p.low), json["high"] = NumberJson(p.high);
+    if (p.other) json["or"] = NumberJson(*p.other);
     json["default"] = ValueJson(p, p.initial);
     parameters.push_back(std::move(json));
   }

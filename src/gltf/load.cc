@@ -13,8 +13,7 @@
 #include "gltf/nodes.h"
 #include "gltf/pictures.h"
 #include "gltf/primitive.h"
-#include "material/model_parameters.h"
-#include "scene/topology.h"
+#include "scene/missing_sets.h"
 
 namespace facet {
 namespace gltf {
@@ -95,11 +94,7 @@ void ReadMeshes(Context& context, BufferStore& buffers, AccessorReader& reader, 
 // Warns of a texture that shows and names a set of texture coordinates that the geometry lacks.
 void WarnOfMissingSets(const Scene& scene, const Primitive& primitive, int material, const Place& place) {
   if (material < 0) return;
-  const Material& reader = scene.materials[std::size_t(material)];
-  const bool on_surface = ClassOf(primitive.topology) == PrimitiveClass::Triangles || !primitive.normals.empty();
-  ForEachSlotOf(reader.model, FeaturesOf(reader, on_surface), [&](const SlotInfo& info) {
-    const auto set = std::size_t(TextureIn(reader, info).tex_coord);
-    if (set < primitive.tex_coords.size() && !primitive.tex_coords[set].empty()) return;
+  ForEachMissingSet(primitive, scene.materials[std::size_t(material)], [&](const SlotInfo& info, std::size_t set) {
     Place(place, "attributes")
         .Warn("TEXCOORD_" + std::to_string(set) + " is missing, by which the " + info.name + " of materials[" +
               std::to_string(material) + "] is read; its texel at 0, 0 is used everywhere");

@@ -145,10 +145,13 @@ class TreeReader {
             return true;
           }
           Place(nodes_place_, std::size_t(child)).Warn(what + "; it is drawn below the latter");
-          std::erase(scene_.nodes[std::size_t(std::exchange(parent, int(i)))].children, child);
+          parent = int(i);
           return false;
         });
       }
+    }
+    for (std::size_t i = 0; i < scene_.nodes.size(); ++i) {
+      std::erase_if(scene_.nodes[i].children, [&](int child) { return parents_[std::size_t(child)] != int(i); });
     }
   }
 

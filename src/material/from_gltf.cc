@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <utility>
 
@@ -21,7 +22,6 @@ Textured<float> Number(float value, const TextureRef& texture, int channel) {
 }
 TangentSpaceNormal Normal(const TextureRef& texture, float scale) { return {.texture = texture, .scale = scale}; }
 
-constexpr const char* kLeastFilmIsLost = "the minimum of its film's thickness";
 // Of models that light every surface.
 constexpr const char* kUnlitIsLost = "unlit surfaces (they emit their colour)";
 
@@ -55,6 +55,13 @@ void NameLost(const Material& m, MaterialFeatures features, std::vector<std::str
   const MaterialFeatures shown = FeaturesOf(m) & features;
   for (const auto& [bit, word] : kWords) {
     if ((shown & bit) != 0) lost.emplace_back(word);
+  }
+}
+
+// Other models' textures of a film's thickness begin at 0.
+void NameLostMinimumOfFilm(const Material& m, std::vector<std::string>& lost) {
+  if (m.iridescence_factor != 0.0f && m.iridescence_thickness_texture && m.iridescence_thickness_minimum != 0.0f) {
+    lost.emplace_back("the minimum of its film's thickness");
   }
 }
 
@@ -95,8 +102,9 @@ FilamentParameters ToFilament(const Material& m, std::vector<std::string>& lost)
   p.roughness = Number(m.roughness_factor, m.metallic_roughness_texture, 1);
   const float f0 = ReflectanceOf(m.ior);
   p.reflectance.value = std::min(std::sqrt(f0 / 0.16f), 1.0f);
-  if (f0 > 0.16f) lost.emplace_back("a reflectance above 0.16");
-  if (m.model == ShadingModel::SpecularGlossiness) {
+  if (m.model == ShadingModel::MetallicRoughness) {
+    if (f0 > 0.16f) lost.emplace_back("a reflectance above 0.16");
+  } else {
     p.shading_model = P::Shading::SpecularGlossiness;
     p.specular_color = {m.specular_glossiness_specular_factor, m.specular_glossiness_texture};
     p.glossiness = Number(m.glossiness_factor, m.specular_glossiness_texture, 3);
@@ -117,13 +125,12 @@ FilamentParameters ToFilament(const Material& m, std::vector<std::string>& lost)
   p.anisotropy = Number(m.anisotropy_strength, m.anisotropy_texture, 2);
   const double turn = double{m.anisotropy_rotation};
   p.anisotropy_direction = {{RoundToFiniteFloat(Cos(turn)), RoundToFiniteFloat(Sin(turn)), 0.0f}, m.anisotropy_texture};
-  if (m.anisotropy_texture && m.anisotropy_rotation != 0.0f) lost.emplace_back("the rotation of its anisotropy");
+  if (m.anisotropy_strength != 0.0f && m.anisotropy_texture && turn != 0.0)
+    lost.emplace_back("the rotation of its anisotropy");
   p.iridescence = Number(m.iridescence_factor, m.iridescence_texture, 0);
   p.iridescence_ior = m.iridescence_ior;
   p.iridescence_thickness = Number(m.iridescence_thickness_maximum, m.iridescence_thickness_texture, 1);
-  if (m.iridescence_factor != 0.0f && m.iridescence_thickness_texture && m.iridescence_thickness_minimum != 0.0f) {
-    lost.emplace_back(kLeastFilmIsLost);
-  }
+  NameLostMinimumOfFilm(m, lost);
   NameLost(m, kDiffuseTransmission, lost);
   if (m.transmission_factor == 0.0f) return p;
   p.refraction_mode = P::RefractionMode::ScreenSpace;
@@ -180,13 +187,13 @@ EnterpriseParameters ToEnterprise(const Material& m, std::vector<std::string>& l
   if (m.iridescence_factor != 0.0f) {
     if (p.thin_film_ior != m.iridescence_ior) lost.emplace_back("films of an index above 2.5");
     if (micrometres > 1.0f) lost.emplace_back("films of more than 1 micrometre");
-    if (m.iridescence_thickness_texture && m.iridescence_thickness_minimum != 0.0f) lost.emplace_back(kLeastFilmIsLost);
   }
+  NameLostMinimumOfFilm(m, lost);
   constexpr float kReflectsAll = 1e9f;  // an index of 0 means F0 = 1
   p.ior = m.ior == 0.0f ? kReflectsAll : std::max(m.ior, 1.0f);
   p.thin_walled = m.thickness_factor == 0.0f;
   p.thickness = m.thickness_factor;
-  if (m.thickness_texture) lost.emplace_back("the texture of its thickness");
+  if (m.thickness_factor != 0.0f && m.thickness_texture) lost.emplace_back("the texture of its thickness");
   p.attenuation_color = m.attenuation_color;
   p.attenuation_distance = m.attenuation_distance;
   p.abbe_number = m.dispersion > 0.0f ? RoundToFiniteFloat(20.0 / double{m.dispersion}) : 0.0f;
@@ -234,13 +241,18 @@ std::vector<std::string> ConvertMaterials(Scene& scene, ShadingModel model) {
   int default_material = -1;
   AddDefaultMaterial(scene, scene.materials, default_material);
   UseDefaultMaterial(scene, default_material);
-  std::vector<std::string> sentences;
+  struct Loss {
+    std::string first;  // the material's name
+    std::size_t others = 0;
+  };
+  std::map<std::string, Loss> losses;  // by what is lost: files repeat their materials
   for (Material& material : scene.materials) {
     if (material.parameters != nullptr) continue;
     if (material.model == ShadingModel::Unlit && model != ShadingModel::Filament) continue;  // exact as it is
     FromGltf converted = ConvertFromGltf(material, model);
     if (!converted.lost.empty()) {
-      sentences.push_back("material " + Quoted(material.name) + ": " + SentenceOf(converted.lost, model));
+      const auto [known, is_new] = losses.try_emplace(SentenceOf(converted.lost, model), Loss{material.name});
+      if (!is_new) ++known->second.others;
     }
     Material out;
     out.name = material.name;
@@ -250,6 +262,11 @@ std::vector<std::string> ConvertMaterials(Scene& scene, ShadingModel model) {
     out.model = model;
     out.parameters = std::make_shared<const ModelParameters>(std::move(converted.parameters));
     material = std::move(out);
+  }
+  std::vector<std::string> sentences;
+  for (const auto& [sentence, loss] : losses) {
+    const std::string others = loss.others == 0 ? "" : " and " + std::to_string(loss.others) + " more";
+    sentences.push_back("material " + Quoted(loss.first) + others + ": " + sentence);
   }
   return sentences;
 }

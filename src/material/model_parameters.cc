@@ -149,6 +149,10 @@ ModelParameters DefaultsOf(ShadingModel model) {
   }
 }
 
+std::optional<AlphaMode> AlphaModeOf(const ModelParameters& parameters) {
+  return std::visit([](const auto& block) { return AlphaModeOf(block); }, parameters);
+}
+
 ShadingModel ModelOf(const ModelParameters& parameters) {
   constexpr std::array kInOrder = {ShadingModel::Lecture, ShadingModel::Filament, ShadingModel::Enterprise};
   return kInOrder.at(parameters.index());

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <type_traits>
@@ -141,6 +142,13 @@ constexpr bool HasParameters(ShadingModel model) { return model > ShadingModel::
 
 // The parameters of such a model, as its documentation has them by default.
 ModelParameters DefaultsOf(ShadingModel model);
+
+// The alpha mode that parameters state: by Filament's blending. The other models leave it to the material.
+template <class Block>
+constexpr std::optional<AlphaMode> AlphaModeOf(const Block&) {
+  return std::nullopt;
+}
+std::optional<AlphaMode> AlphaModeOf(const ModelParameters& parameters);
 
 // The model of a parameter block: that of the same name.
 ShadingModel ModelOf(const ModelParameters& parameters);

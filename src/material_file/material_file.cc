@@ -21,12 +21,12 @@
 #include "facet/models.h"
 #include "gltf/pictures.h"
 #include "gltf/strict_json.h"
-#include "material/features.h"
+#include "gltf/warnings.h"
 #include "material/from_gltf.h"
 #include "material/model_parameters.h"
 #include "material/models/models.h"
 #include "math/round_to_float.h"
-#include "scene/topology.h"
+#include "scene/missing_sets.h"
 
 namespace facet {
 namespace {
@@ -142,7 +142,7 @@ class MaterialFile {
 
  private:
   struct Change {
-    std::string place;  // of the entry
+    std::string place;  // of the entry: its JSON pointer
     std::string loss;
   };
 
@@ -153,7 +153,7 @@ class MaterialFile {
     scene_.images = std::move(images_);
     scene_.textures = std::move(textures_);
     for (const auto& [index, change] : changes_) {
-      if (!change.loss.empty()) report_.warnings.push_back(change.loss);
+      if (!change.loss.empty()) warnings_.Add(change.place, change.loss);
     }
     for (const Mesh& mesh : scene_.meshes) {
       for (const Primitive& primitive : mesh.primitives) {
@@ -161,18 +161,15 @@ class MaterialFile {
         if (change != changes_.end()) WarnOfMissingSets(mesh, primitive, change->second.place);
       }
     }
+    for (const std::string& line : warnings_.Lines()) report_.warnings.push_back(name_ + ": " + line);
   }
 
   // `place`: of the entry that changed the primitive's material.
   void WarnOfMissingSets(const Mesh& mesh, const Primitive& primitive, const std::string& place) {
     const Material& material = scene_.materials[std::size_t(primitive.material)];
-    const bool on_surface = ClassOf(primitive.topology) == PrimitiveClass::Triangles || !primitive.normals.empty();
-    ForEachSlotOf(material.model, FeaturesOf(material, on_surface), [&](const SlotInfo& slot) {
-      const auto set = std::size_t(TextureIn(material, slot).tex_coord);
-      if (set < primitive.tex_coords.size() && !primitive.tex_coords[set].empty()) return;
-      const std::string warning = place + ": mesh " + Quoted(mesh.name) + " has no TEXCOORD_" + std::to_string(set) +
-                                  ", by which " + slot.name + " is read; its texel at 0, 0 is used everywhere";
-      if (std::ranges::find(report_.warnings, warning) == report_.warnings.end()) report_.warnings.push_back(warning);
+    ForEachMissingSet(primitive, material, [&](const SlotInfo& slot, std::size_t set) {
+      warnings_.Add(place, "mesh " + Quoted(mesh.name) + " has no TEXCOORD_" + std::to_string(set) + ", by which " +
+                               slot.name + " is read; its texel at 0, 0 is used everywhere");
     });
   }
 
@@ -192,8 +189,9 @@ class MaterialFile {
     for (const std::size_t index : Matching(entry["match"])) {
       static const Material plain;
       const Material& of_scene = index < scene_.materials.size() ? scene_.materials[index] : plain;
-      Change& change = changes_[index] = {entry.Place(), {}};  // of several entries the last counts
-      if (inherits) changes = ReadChanges(entry, model, Inherited(entry, of_scene, model, change.loss));
+      Change& change =
+          changes_[index] = {Printable(entry.pointer.to_string()), {}};  // of several entries the last counts
+      if (inherits) changes = ReadChanges(entry, model, Inherited(of_scene, model, change.loss));
       Material& material = materials_[index] = changes;
       material.name = of_scene.name;
       if (!states_alpha_mode_) material.alpha_mode = of_scene.alpha_mode;
@@ -213,10 +211,9 @@ class MaterialFile {
   }
 
   // What a material of the scene states, in the model's parameters. `loss`: a sentence about what is not inherited.
-  static ModelParameters Inherited(const JsonValue& entry, const Material& of_scene, ShadingModel model,
-                                   std::string& loss) {
+  static ModelParameters Inherited(const Material& of_scene, ShadingModel model, std::string& loss) {
     if (of_scene.model == model && of_scene.parameters != nullptr) return *of_scene.parameters;
-    const std::string where = entry.Place() + ": material " + Quoted(of_scene.name);
+    const std::string where = "material " + Quoted(of_scene.name);
     if (of_scene.parameters != nullptr) {
       loss = where + " is of another model, so nothing is inherited";
       return DefaultsOf(model);
@@ -310,18 +307,16 @@ class MaterialFile {
         states_alpha_mode_ = true;
       }
     });
-    if constexpr (requires { AlphaModeOf(block); }) {
-      if (const std::optional<AlphaMode> mode = AlphaModeOf(block)) {
-        changes.alpha_mode = *mode;
-        states_alpha_mode_ = states_blending_ = true;
-      }
+    if (const std::optional<AlphaMode> mode = AlphaModeOf(block)) {
+      changes.alpha_mode = *mode;
+      states_alpha_mode_ = states_blending_ = true;
     }
   }
 
   void WarnOfIgnored(const ModelParameters& parameters, const JsonValue& entry) {
     const auto* const enterprise = std::get_if<EnterpriseParameters>(&parameters);
     if (enterprise == nullptr || enterprise->displacement == glm::vec3(0.0f)) return;
-    report_.warnings.push_back(entry.Place() + ": displacement is not drawn");
+    warnings_.Add(Printable(entry.pointer.to_string()), "displacement is not drawn");
   }
 
   void ReadCommon(const JsonValue& entry, Material& changes) {
@@ -423,6 +418,7 @@ class MaterialFile {
   const std::string name_;
   const std::filesystem::path root_;
   LoadReport& report_;
+  gltf::Warnings warnings_;
   std::vector<Material> materials_;
   std::vector<SceneImage> images_;
   std::vector<Texture> textures_;

@@ -66,8 +66,7 @@ struct NamedBy {
 };
 
 // Gives the scene's materials the request's model and those of its material file, as far as it has these, and adds to
-// the report what was read and what was lost.
-// Throws what ApplyMaterialFile() throws.
+// the report what was read and what was lost. Throws what ApplyMaterialFile() throws.
 void ApplyMaterials(const RenderRequest& request, LoadedScene& loaded, const LoadOptions& options = {},
                     const NamedBy& named_by = {});
 

@@ -44,6 +44,16 @@ TEST(Nodes, CyclesAreRefusedAndTheLastParentCounts) {
   ASSERT_EQ(shared.report.warnings.size(), 1u);
   EXPECT_NE(shared.report.warnings[0].find("nodes[2]: is a child of both nodes[0] and nodes[1]; it is drawn below"),
             std::string::npos);
+  // Two parents that list the same many children: no search for each of them.
+  std::string all = "2";
+  for (int i = 3; i < 200000; ++i) all += "," + std::to_string(i);
+  std::string leaves;
+  for (int i = 2; i < 200000; ++i) leaves += ",{}";
+  const std::string parent = R"({"children":[)" + all + "]}";
+  const LoadedScene many = LoadBytes(Root("\"nodes\":[" + parent + "," + parent + leaves + "]"));
+  EXPECT_TRUE(many.scene.nodes[0].children.empty());
+  EXPECT_EQ(many.scene.nodes[1].children.size(), 199998u);
+  EXPECT_EQ(many.report.warnings.size(), 1u) << "which counts the others";
   const LoadedScene twice = LoadBytes(Root(R"("nodes":[{"children":[1,1]},{}])"));
   EXPECT_EQ(twice.scene.nodes[0].children, std::vector<int>{1});
   EXPECT_EQ(twice.report.warnings.size(), 1u);

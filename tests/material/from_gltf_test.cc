@@ -105,15 +105,15 @@ TEST(FromGltf, LeavesUnlitMaterialsToModelsThatHaveThem) {
 
 TEST(FromGltf, ConvertsScenes) {
   Scene scene;
-  scene.materials = {Painted(), Painted()};
-  scene.materials[1].clearcoat_factor = 1.0f;
+  scene.materials = {Painted(), Painted(), Painted()};
+  scene.materials[1].clearcoat_factor = scene.materials[2].clearcoat_factor = 1.0f;
   scene.materials[1].name = "lacquer";
   scene.meshes.emplace_back().primitives.emplace_back();
   const auto sentences = ConvertMaterials(scene, ShadingModel::Lecture);
-  ASSERT_EQ(sentences.size(), 1u);
-  EXPECT_EQ(sentences[0], "material 'lacquer': the model \"lecture\" does not have clear coat");
-  ASSERT_EQ(scene.materials.size(), 3u) << "one for the part without a material";
-  EXPECT_EQ(scene.meshes[0].primitives[0].material, 2);
+  ASSERT_EQ(sentences.size(), 1u) << "one for what is lost in the same way";
+  EXPECT_EQ(sentences[0], "material 'lacquer' and 1 more: the model \"lecture\" does not have clear coat");
+  ASSERT_EQ(scene.materials.size(), 4u) << "one for the part without a material";
+  EXPECT_EQ(scene.meshes[0].primitives[0].material, 3);
   for (const Material& material : scene.materials) EXPECT_EQ(material.model, ShadingModel::Lecture);
   EXPECT_NO_THROW(ValidateScene(scene));
 }

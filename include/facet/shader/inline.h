@@ -1,7 +1,7 @@
 // FACET_INLINE stands before functions of lanes. Kernels are fast because everything that they call is inlined into one
-// loop, which takes a compiler long and a compiler that adds checks to each access very long: 20 minutes for one file.
-// FACET_MAY_INLINE leaves the choice to the compiler, for builds with sanitizers and for the evaluation in double; the
-// values are the same.
+// loop, which takes a compiler long, and a compiler that adds checks to each access very long: ten minutes for one
+// file. FACET_MAY_INLINE leaves the choice to the compiler, for builds with sanitizers and for the evaluation in
+// double; the values are the same.
 #pragma once
 
 #include "hwy/base.h"
